@@ -1,0 +1,23 @@
+# Third parties. Each is seen by one folder only (CONTRIBUTING.md).
+find_package(Threads REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS C)
+
+# Embree 4 where it is to be had, else 3.13.
+find_package(embree 4 QUIET CONFIG)
+if(NOT embree_FOUND)
+    find_package(embree 3.13 REQUIRED CONFIG)
+endif()
+
+find_package(OpenImageIO 2.4 REQUIRED CONFIG)
+
+find_package(OpenColorIO 2.1 QUIET CONFIG)
+if(TARGET OpenColorIO::OpenColorIO)
+    set(PPM_OCIO_TARGET OpenColorIO::OpenColorIO)
+else()
+    # Debian 12 has OpenColorIO's pkg-config file only.
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)
+    set(PPM_OCIO_TARGET PkgConfig::OCIO)
+endif()
+
+find_package(TinyGLTF 2.7 REQUIRED CONFIG)

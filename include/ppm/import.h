@@ -1,0 +1,49 @@
+/* Importing a file into a scene. */
+#ifndef PPM_IMPORT_H
+#define PPM_IMPORT_H
+
+#include "ppm/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How the numbers of punctual lights are read (docs/light-units.md). */
+enum {
+    PPM_LIGHT_UNITS_AUTO = 0,    /* BLENDER when asset.generator names Khronos' Blender exporter */
+    PPM_LIGHT_UNITS_GLTF = 1,    /* candela and lux as written */
+    PPM_LIGHT_UNITS_BLENDER = 2, /* divided by 683 lm/W, to match emissive strength and Cycles */
+    PPM_LIGHT_UNITS_RAW = 3      /* Blender's "raw": watts; point and spot divided by 4 pi */
+};
+
+/* How KHR_materials_transmission without a thickness is read. */
+enum {
+    PPM_TRANSMISSION_POLICY_AUTO = 0,  /* thickness > 0: solid; else solid from Khronos' Blender
+                                          exporter, thin otherwise */
+    PPM_TRANSMISSION_POLICY_SOLID = 1, /* every transmissive material is a solid */
+    PPM_TRANSMISSION_POLICY_THIN = 2   /* every one is a thin sheet */
+};
+
+typedef struct ppm_import_options {
+    uint32_t size;        /* sizeof(ppm_import_options) */
+    int32_t light_units;  /* PPM_LIGHT_UNITS_ */
+    int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
+} ppm_import_options;
+
+/* Reads path (.gltf, .glb; the ending decides, letter case does not matter) into scene, which may
+ * already hold other things. options may be NULL. Choices and omissions are logged: INFO for
+ * policies, WARNING for what is left out.
+ *
+ * Missing or broken images and unused broken parts are left out with a warning. Anything that
+ * would make the geometry wrong is an error; the message names file, JSON path and reason. After
+ * an error the scene may hold a part of the file: destroy it.
+ * Returns OK, INVALID_ARGUMENT, INPUT_NOT_FOUND, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY,
+ * WRONG_STATE. */
+PPM_API ppm_status ppm_scene_import(ppm_scene *scene, const char *path,
+                                    const ppm_import_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,45 @@
+/* Writing pictures. Files are written beside their name and renamed when complete, so that a
+ * viewer may watch them and a killed process leaves nothing half-written. */
+#ifndef PPM_OUTPUT_H
+#define PPM_OUTPUT_H
+
+#include "ppm/color.h"
+#include "ppm/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
+
+/* 0 or NULL in any field means its default. */
+typedef struct ppm_output_options {
+    uint32_t size;       /* sizeof(ppm_output_options) */
+    int32_t depth;       /* EXR pixels; default PPM_DEPTH_FLOAT */
+    float exposure_ev;   /* display-referred files: the picture times 2^EV before the view */
+    const char *display; /* default: the configuration's */
+    const char *view;    /* default: the display's */
+    const char *command; /* for the EXR's metadata: how the picture was made; may be NULL */
+} ppm_output_options;
+
+/* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and
+ * its folder takes new files. Returns OK, INVALID_ARGUMENT (ending) or OUTPUT_NOT_WRITABLE. */
+PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
+
+/* Writes the picture so far of a session; the ending of path says the kind:
+ *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply.
+ *                      Header: chromaticities, oiio:ColorSpace, PixelAspectRatio, software,
+ *                      ppm:version, ppm:options, ppm:passes, ppm:photons, ppm:command, ...
+ *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color.
+ * color may be NULL for .exr. options may be NULL.
+ * Threads: not while another thread is in ppm_render_advance.
+ * Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY,
+ * WRONG_STATE (no finished pass). On failure the file at path is as it was. */
+PPM_API ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color,
+                                    const char *path, const ppm_output_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

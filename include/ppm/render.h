@@ -1,0 +1,96 @@
+/* Rendering: a session that a host drives pass by pass.
+ *
+ *     ppm_render_create(scene, &options, &render);
+ *     while (ppm_render_advance(render) == PPM_STATUS_OK && !enough)
+ *         show(render);                  // ppm_render_read_image
+ *     ppm_render_destroy(render);
+ *
+ * After every pass the whole picture is there; every further pass improves it. */
+#ifndef PPM_RENDER_H
+#define PPM_RENDER_H
+
+#include "ppm/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ppm_render ppm_render;
+
+enum {
+    PPM_INTEGRATOR_DEFAULT = 0, /* SPPM */
+    PPM_INTEGRATOR_SPPM = 1,    /* stochastic progressive photon mapping (Hachisuka, Jensen 2009) */
+    PPM_INTEGRATOR_PATH = 2     /* unidirectional path tracer with light sampling, the yardstick */
+};
+
+/* 0 in any field means its default. */
+typedef struct ppm_render_options {
+    uint32_t size;      /* sizeof(ppm_render_options) */
+    int32_t integrator; /* PPM_INTEGRATOR_ */
+    uint32_t width;     /* pixels; default 1280 */
+    uint32_t height;    /* pixels; default from width and the camera's aspect (16:9 if not said) */
+    uint64_t photons_per_pass; /* default 262144, or the number of pixels if that is more */
+    uint32_t max_depth;        /* bounces of a path; default 32 */
+    float radius_m;            /* first gather radius; default: from each pixel's footprint */
+    float alpha;               /* share of new photons that is kept, 0 < alpha <= 1; default 2/3 */
+    uint64_t seed;             /* default 0 is a seed like any other */
+    uint32_t threads;          /* default: all processors that the process may use */
+    ppm_camera_id camera;      /* default: the first; a scene without one is framed */
+} ppm_render_options;
+
+/* The options in effect: defaults filled in for this scene. Returns INVALID_ARGUMENT for values
+ * out of range, naming them. Does not change the scene. */
+PPM_API ppm_status ppm_render_options_resolve(const ppm_scene *scene,
+                                              const ppm_render_options *options,
+                                              ppm_render_options *out_resolved);
+
+/* Makes a session: freezes the scene, builds acceleration structures and light tables, allocates
+ * the film. The scene must outlive the session. options may be NULL.
+ * A scene without a camera gets ppm_scene_add_framing_camera, one without any light a uniform
+ * environment of 1 nit; both are logged (INFO). Several sessions may share a frozen scene.
+ * Returns OK, INVALID_ARGUMENT, WRONG_STATE (nothing to render), OUT_OF_MEMORY. */
+PPM_API ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
+                                     ppm_render **out_render);
+PPM_API void ppm_render_destroy(ppm_render *render);
+
+/* Renders one pass on the session's threads and returns when it is done. A cancelled pass leaves
+ * the picture as it was before the pass. Returns OK, CANCELLED, OUT_OF_MEMORY.
+ * Threads: one caller at a time. Result: the same bits for the same scene, options and seed, with
+ * any number of threads. */
+PPM_API ppm_status ppm_render_advance(ppm_render *render);
+
+/* Makes the running and every later ppm_render_advance return CANCELLED soon (some milliseconds).
+ * Any thread; also from a signal handler. */
+PPM_API void ppm_render_cancel(ppm_render *render);
+
+/* The options in effect. Valid until ppm_render_destroy. */
+PPM_API const ppm_render_options *ppm_render_get_options(const ppm_render *render);
+
+typedef struct ppm_render_stats {
+    uint32_t size;            /* sizeof(ppm_render_stats), set by the caller */
+    uint64_t passes;          /* finished */
+    uint64_t photons_emitted; /* in finished passes */
+    uint64_t photons_stored;  /* photon vertices kept for gathering */
+    uint64_t eye_paths;
+    uint64_t rays;         /* of all kinds that were traced */
+    double seconds_build;  /* acceleration structures and light tables */
+    double seconds_render; /* sum over passes */
+    double seconds_eye;    /* its parts */
+    double seconds_photons;
+    double seconds_gather;
+    uint32_t threads;
+} ppm_render_stats;
+
+/* Not while another thread is in ppm_render_advance. */
+PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats);
+
+/* Copies the picture so far: 4 * width * height floats, RGBA, row 0 on top, scene-linear Rec.709,
+ * alpha premultiplied. rgba_count is the number of floats in rgba. Not while another thread is in
+ * ppm_render_advance. Returns OK, INVALID_ARGUMENT, WRONG_STATE (no finished pass). */
+PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,260 @@
+/* The scene: what is rendered. Built by calls, or filled by ppm_scene_import (import.h).
+ *
+ * Conventions, everywhere in this API:
+ *   lengths in metres, angles in radians, right-handed, +Y up;
+ *   transforms are local-to-world, 4x4, column-major (translation in elements 12, 13, 14),
+ *   affine (last row 0 0 0 1);
+ *   colours are linear Rec.709 (D65), not premultiplied;
+ *   radiance in nit (cd/m2), radiant intensity of point and spot lights in candela, irradiance of
+ *   directional lights in lux, all on one photometric scale;
+ *   ids start at 1; 0 is "none".
+ * All arrays and strings that a desc points to are copied; the caller keeps its own.
+ * Threads: one thread builds a scene at a time. Once a render session has been made from a scene,
+ * the scene is frozen: adding to it returns WRONG_STATE, reading is free from any thread. */
+#ifndef PPM_SCENE_H
+#define PPM_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "ppm/color.h"
+#include "ppm/context.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ppm_scene ppm_scene;
+
+typedef uint32_t ppm_image_id;
+typedef uint32_t ppm_material_id;
+typedef uint32_t ppm_mesh_id;
+typedef uint32_t ppm_instance_id;
+typedef uint32_t ppm_camera_id;
+typedef uint32_t ppm_light_id;
+
+/* Makes an empty scene. color converts its textures; NULL uses the built-in configuration. The
+ * context and color must outlive the scene. Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY. */
+PPM_API ppm_status ppm_scene_create(ppm_context *context, const ppm_color *color,
+                                    ppm_scene **out_scene);
+/* NULL is fine. No render session of this scene may be alive. */
+PPM_API void ppm_scene_destroy(ppm_scene *scene);
+
+/* ---- images and textures --------------------------------------------------------------------- */
+
+enum {
+    PPM_IMAGE_COLOR = 1, /* display-encoded colour: sRGB, or scene-linear where the file is HDR */
+    PPM_IMAGE_DATA = 2   /* numbers: normals, roughness, masks; no colour conversion */
+};
+enum { PPM_PIXELS_U8 = 1, PPM_PIXELS_F32 = 2 };
+
+/* One image, from exactly one of: a file, an encoded file in memory, or pixels. */
+typedef struct ppm_image_desc {
+    uint32_t size;     /* sizeof(ppm_image_desc) */
+    const char *name;  /* for messages; may be NULL */
+    int32_t role;      /* PPM_IMAGE_COLOR or PPM_IMAGE_DATA */
+    const char *path;  /* a file, UTF-8; or NULL */
+    const void *bytes; /* an encoded file (PNG, JPEG, ...) of byte_count bytes; or NULL */
+    size_t byte_count;
+    const void *pixels; /* width * height * channels values, row 0 on top, packed; or NULL */
+    int32_t pixel_type; /* PPM_PIXELS_U8 (0..255 is 0..1) or PPM_PIXELS_F32, of pixels */
+    uint32_t width;     /* of pixels */
+    uint32_t height;    /* of pixels */
+    uint32_t channels;  /* of pixels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA */
+} ppm_image_desc;
+
+/* Decodes and keeps an image. PPM_IMAGE_COLOR pixels of type F32 are taken as linear Rec.709.
+ * Returns OK, INVALID_ARGUMENT, INPUT_NOT_FOUND, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY,
+ * WRONG_STATE. */
+PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *desc,
+                                       ppm_image_id *out_id);
+
+enum { PPM_WRAP_REPEAT = 0, PPM_WRAP_CLAMP = 1, PPM_WRAP_MIRROR = 2 };
+enum { PPM_FILTER_LINEAR = 0, PPM_FILTER_NEAREST = 1 };
+
+/* A use of an image by a material. All zero: no texture. */
+typedef struct ppm_texture {
+    ppm_image_id image;     /* 0: none */
+    uint32_t uv_set;        /* 0 .. PPM_MAX_UV_SETS - 1 */
+    int32_t wrap_u;         /* PPM_WRAP_ */
+    int32_t wrap_v;         /* PPM_WRAP_ */
+    int32_t filter;         /* PPM_FILTER_ */
+    uint32_t has_transform; /* non-zero: uv_transform applies */
+    float uv_transform[6];  /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5; origin top left */
+} ppm_texture;
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+enum { PPM_ALPHA_OPAQUE = 0, PPM_ALPHA_MASK = 1, PPM_ALPHA_BLEND = 2 };
+enum {
+    PPM_TRANSMISSION_SOLID = 0, /* the surface bounds a solid: rays bend */
+    PPM_TRANSMISSION_THIN = 1   /* the surface is an infinitely thin sheet: rays do not bend */
+};
+
+/* The metallic-roughness model of glTF 2.0 with the extensions that are named. Textures multiply
+ * the factors. Fill with ppm_material_desc_init first. */
+typedef struct ppm_material_desc {
+    uint32_t size;    /* sizeof(ppm_material_desc) */
+    const char *name; /* may be NULL */
+
+    float base_color[4];            /* linear Rec.709 and alpha; default 1 1 1 1 */
+    ppm_texture base_color_texture; /* RGB colour, A alpha */
+    float metallic;                 /* 0..1; default 0 (glTF's own default, 1, is the importer's) */
+    float roughness;                /* perceptual, 0..1: GGX alpha is its square; default 0.5 */
+    ppm_texture metallic_roughness_texture; /* G roughness, B metallic */
+    ppm_texture normal_texture;             /* tangent space; needs uv, tangents help */
+    float normal_scale;                     /* default 1 */
+    float emission[3];                      /* radiance, nit; default 0 */
+    ppm_texture emission_texture;
+
+    float ior;                          /* outside is 1; default 1.5 (KHR_materials_ior); 0 is the
+                                           extension's "full Fresnel" value */
+    float specular;                     /* KHR_materials_specular; default 1 */
+    ppm_texture specular_texture;       /* A */
+    float specular_color[3];            /* default 1 1 1 */
+    ppm_texture specular_color_texture; /* RGB */
+
+    float transmission;               /* KHR_materials_transmission; default 0 */
+    ppm_texture transmission_texture; /* R */
+    int32_t transmission_kind;        /* PPM_TRANSMISSION_ */
+    float attenuation_color[3];       /* KHR_materials_volume; default 1 1 1 */
+    float attenuation_distance_m;     /* 0: none; default 0 */
+
+    int32_t alpha_mode;    /* PPM_ALPHA_ */
+    float alpha_cutoff;    /* for MASK; default 0.5 */
+    uint32_t double_sided; /* 0: the back is not seen by the camera and does not emit; default 1 */
+} ppm_material_desc;
+
+/* Fills in the defaults and size. */
+PPM_API void ppm_material_desc_init(ppm_material_desc *desc);
+
+/* Returns OK, INVALID_ARGUMENT (a value that is not finite or out of range, an unknown image),
+ * OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *desc,
+                                          ppm_material_id *out_id);
+
+/* ---- meshes and instances -------------------------------------------------------------------- */
+
+enum { PPM_MAX_UV_SETS = 8 };
+
+/* One indexed triangle list with one material. */
+typedef struct ppm_primitive_desc {
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    const float *positions;            /* 3 * vertex_count, metres, object space */
+    const float *normals;              /* 3 * vertex_count, or NULL: flat, from the faces */
+    const float *tangents;             /* 4 * vertex_count (xyz, w = bitangent sign), or NULL */
+    const float *uvs[PPM_MAX_UV_SETS]; /* 2 * vertex_count each, v down, or NULL */
+    const float *colors;               /* 4 * vertex_count linear Rec.709 + alpha, or NULL */
+    const uint32_t *indices;           /* 3 * triangle_count, each < vertex_count,
+                                          counter-clockwise from outside */
+    ppm_material_id material;          /* 0: a grey default */
+} ppm_primitive_desc;
+
+typedef struct ppm_mesh_desc {
+    uint32_t size;    /* sizeof(ppm_mesh_desc) */
+    const char *name; /* may be NULL */
+    uint32_t primitive_count;
+    const ppm_primitive_desc *primitives;
+} ppm_mesh_desc;
+
+/* Adds a mesh. Triangles with a position that is not finite, and those of no area, are dropped and
+ * counted in a warning; normals that are not finite or zero are replaced by the face's.
+ * Returns OK, INVALID_ARGUMENT (an index out of range, sizes that overflow), OUT_OF_MEMORY,
+ * WRONG_STATE. The id is valid until ppm_scene_destroy; *out_id is untouched on failure. */
+PPM_API ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc,
+                                      ppm_mesh_id *out_id);
+
+typedef struct ppm_instance_desc {
+    uint32_t size;    /* sizeof(ppm_instance_desc) */
+    const char *name; /* may be NULL */
+    ppm_mesh_id mesh;
+    float transform[16]; /* mirrored ones (negative determinant) are fine */
+} ppm_instance_desc;
+
+/* Returns OK, INVALID_ARGUMENT (unknown mesh, a transform that is not finite), OUT_OF_MEMORY,
+ * WRONG_STATE. A singular transform is dropped with a warning; *out_id is then 0. */
+PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,
+                                          ppm_instance_id *out_id);
+
+/* ---- cameras --------------------------------------------------------------------------------- */
+
+enum { PPM_CAMERA_PERSPECTIVE = 0, PPM_CAMERA_ORTHOGRAPHIC = 1 };
+
+/* Looks along its local -Z, +Y up. Scale in the transform is ignored. */
+typedef struct ppm_camera_desc {
+    uint32_t size; /* sizeof(ppm_camera_desc) */
+    const char *name;
+    int32_t kind;
+    float transform[16];
+    float y_fov_rad;     /* perspective: full vertical angle, 0 < a < pi */
+    float half_width_m;  /* orthographic: half of the seen width */
+    float half_height_m; /* orthographic: half of the seen height */
+    float aspect;        /* width / height that the file asks for; 0: not said */
+} ppm_camera_desc;
+
+PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
+                                        ppm_camera_id *out_id);
+PPM_API uint32_t ppm_scene_camera_count(const ppm_scene *scene);
+/* The name of a camera, never NULL for a valid id; NULL otherwise. Valid until destroy. */
+PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id id);
+/* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
+ * and above), for the given aspect (width / height). Returns also WRONG_STATE when the scene has
+ * no instance. */
+PPM_API ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect,
+                                                ppm_camera_id *out_id);
+/* The aspect that a camera's file asks for, or 0. */
+PPM_API float ppm_scene_camera_aspect(const ppm_scene *scene, ppm_camera_id id);
+
+/* ---- lights ---------------------------------------------------------------------------------- */
+
+enum { PPM_LIGHT_POINT = 0, PPM_LIGHT_SPOT = 1, PPM_LIGHT_DIRECTIONAL = 2 };
+
+/* Shines along its local -Z (spot, directional). Scale in the transform is ignored. */
+typedef struct ppm_light_desc {
+    uint32_t size; /* sizeof(ppm_light_desc) */
+    const char *name;
+    int32_t kind;
+    float transform[16];
+    float intensity[3];   /* linear Rec.709: candela (point, spot) or lux (directional) */
+    float inner_cone_rad; /* spot: half angle of full intensity */
+    float outer_cone_rad; /* spot: half angle where it ends, <= pi/2 */
+} ppm_light_desc;
+
+PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
+                                       ppm_light_id *out_id);
+
+/* The surroundings: a radiance for every direction. */
+typedef struct ppm_environment_desc {
+    uint32_t size;      /* sizeof(ppm_environment_desc) */
+    float radiance[3];  /* nit, linear Rec.709; multiplies the image if there is one */
+    ppm_image_id image; /* latitude-longitude, row 0 is up (+Y), the middle column is -Z; or 0 */
+    float rotation_rad; /* turns the image about +Y, counter-clockwise seen from above */
+} ppm_environment_desc;
+
+/* Sets or replaces the environment. Without one it is black. */
+PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
+
+/* ---- facts ----------------------------------------------------------------------------------- */
+
+typedef struct ppm_scene_info {
+    uint32_t size;      /* sizeof(ppm_scene_info), set by the caller */
+    uint64_t triangles; /* of all meshes, each mesh once */
+    uint64_t instances;
+    uint64_t meshes;
+    uint64_t materials;
+    uint64_t textures; /* images */
+    uint64_t lights;   /* punctual lights, emissive triangles, and 1 for an environment */
+    uint64_t cameras;
+    uint32_t has_light;  /* non-zero when anything shines */
+    float bounds_min[3]; /* of all instances, world space; min > max when there are none */
+    float bounds_max[3];
+} ppm_scene_info;
+
+PPM_API ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

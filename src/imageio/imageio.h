@@ -1,0 +1,73 @@
+/* Image files, through OpenImageIO. C interface of a C++ shim: no exception leaves it. */
+#ifndef PPMI_IMAGEIO_H
+#define PPMI_IMAGEIO_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/context.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Decoded pixels: width * height * channels values, row 0 on top, packed. 8-bit files give u8,
+ * everything else f32. Free with ppmi_imageio_pixels_free. */
+typedef struct ppmi_pixels {
+    uint32_t width, height, channels; /* channels 1..4: grey, grey+alpha, RGB, RGBA */
+    uint8_t *u8;                      /* or NULL */
+    float *f32;                       /* or NULL */
+    bool is_linear;                   /* the file holds scene-linear values (HDR, EXR) */
+} ppmi_pixels;
+
+/* Decodes a file. name is used in messages. Files of more than 4 channels give the first four;
+ * alpha is returned unassociated. Refuses images of more than 2^30 values (OUT_OF_MEMORY names the
+ * size). Returns OK, INPUT_NOT_FOUND, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY. Any thread.
+ */
+ppm_status ppmi_imageio_read_file(ppm_context *context, const char *path, const char *name,
+                                  ppmi_pixels *out_pixels);
+ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, size_t byte_count,
+                                    const char *name, ppmi_pixels *out_pixels);
+void ppmi_imageio_pixels_free(ppm_context *context, ppmi_pixels *pixels);
+
+/* One header entry. */
+typedef struct ppmi_image_attribute {
+    const char *name;
+    enum {
+        PPMI_ATTRIBUTE_STRING,
+        PPMI_ATTRIBUTE_INT,
+        PPMI_ATTRIBUTE_FLOAT,
+        PPMI_ATTRIBUTE_FLOATS
+    } type;
+    const char *text;
+    int64_t integer;     /* written as int where it fits, else as a decimal string */
+    const float *floats; /* FLOATS: float_count values (8: chromaticities); FLOAT: the first */
+    uint32_t float_count;
+} ppmi_image_attribute;
+
+enum { PPMI_STORE_U8, PPMI_STORE_U16, PPMI_STORE_HALF, PPMI_STORE_FLOAT };
+
+typedef struct ppmi_image_file {
+    uint32_t width, height, channels;
+    const float *pixels;              /* width * height * channels, row 0 on top */
+    const char *const *channel_names; /* channels names, or NULL: R G B A */
+    int32_t store;                    /* PPMI_STORE_ */
+    uint32_t attribute_count;
+    const ppmi_image_attribute *attributes;
+} ppmi_image_file;
+
+/* Writes a file whose format follows the ending of path: to a new temporary file in the same
+ * folder, flushed, then renamed over path. On failure path is untouched and the temporary is gone.
+ * Formats that cannot hold alpha (JPEG) get the first three channels.
+ * Returns OK, OUTPUT_NOT_WRITABLE (message has path and reason), OUT_OF_MEMORY. */
+ppm_status ppmi_imageio_write_file(ppm_context *context, const char *path,
+                                   const ppmi_image_file *file);
+
+/* "OpenImageIO 2.4.7.1". Static. */
+const char *ppmi_imageio_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
