@@ -21,3 +21,8 @@ else()
 endif()
 
 find_package(TinyGLTF 2.7 REQUIRED CONFIG)
+if(TARGET TinyGLTF::TinyGLTF)
+    set(PPM_TINYGLTF_TARGET TinyGLTF::TinyGLTF) # Debian: a shared library
+else()
+    set(PPM_TINYGLTF_TARGET tinygltf::tinygltf) # upstream
+endif()

@@ -1,0 +1,95 @@
+/* The context: reporting, last error, counted memory. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/context.h"
+
+typedef struct log_record {
+    int count;
+    ppm_log_level level;
+    char text[128];
+} log_record;
+
+static void record(void *user, ppm_log_level level, const char *message)
+{
+    log_record *log = user;
+    log->count++;
+    log->level = level;
+    strncpy(log->text, message, sizeof log->text - 1);
+}
+
+static void refuses_missing_out(void **state)
+{
+    (void)state;
+    assert_int_equal(ppm_context_create(NULL, NULL), PPM_STATUS_INVALID_ARGUMENT);
+    const ppm_context_desc too_small = {.size = 4};
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(&too_small, &context), PPM_STATUS_INVALID_ARGUMENT);
+    assert_null(context);
+}
+
+static void failure_is_logged_and_kept(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    const ppm_context_desc desc = {.size = sizeof desc, .log = record, .log_user = &log};
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(&desc, &context), PPM_STATUS_OK);
+    assert_int_equal(ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "file %d", 7),
+                     PPM_STATUS_INPUT_INVALID);
+    assert_int_equal(log.count, 1);
+    assert_int_equal(log.level, PPM_LOG_ERROR);
+    assert_string_equal(log.text, "file 7");
+    char kept[4];
+    assert_int_equal(ppm_context_last_error(context, kept, sizeof kept), 6);
+    assert_string_equal(kept, "fil");
+    ppm_context_destroy(context);
+}
+
+static void memory_is_counted_and_can_fail(void **state)
+{
+    (void)state;
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(NULL, &context), PPM_STATUS_OK);
+    assert_null(ppmi_alloc(context, 0, 8));
+    assert_null(ppmi_alloc(context, SIZE_MAX / 2, 8));
+    void *block = ppmi_alloc(context, 3, 5);
+    assert_non_null(block);
+    assert_int_equal((uintptr_t)block % 64, 0);
+    assert_int_equal(ppmi_alloc_live(context), 1);
+    ppmi_alloc_fail_at(context, 2);
+    void *first = ppmi_alloc(context, 1, 1);
+    assert_non_null(first);
+    assert_null(ppmi_alloc(context, 1, 1));
+    void *third = ppmi_alloc(context, 1, 1);
+    assert_non_null(third);
+    ppmi_free(context, block);
+    ppmi_free(context, first);
+    ppmi_free(context, third);
+    assert_int_equal(ppmi_alloc_live(context), 0);
+    ppm_context_destroy(context);
+}
+
+static void every_status_has_a_name(void **state)
+{
+    (void)state;
+    assert_string_equal(ppm_status_name(PPM_STATUS_OUT_OF_MEMORY), "OUT_OF_MEMORY");
+    assert_string_equal(ppm_status_name(12345), "UNKNOWN");
+    assert_string_equal(ppm_status_text(PPM_STATUS_OK), "success");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refuses_missing_out),
+        cmocka_unit_test(failure_is_logged_and_kept),
+        cmocka_unit_test(memory_is_counted_and_can_fail),
+        cmocka_unit_test(every_status_has_a_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
