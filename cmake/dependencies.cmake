@@ -9,6 +9,16 @@ if(NOT embree_FOUND)
 endif()
 
 find_package(OpenImageIO 2.4 REQUIRED CONFIG)
+# Debian 12's target names OpenCV's include folder, which is there only with OpenCV's own package and
+# which nothing here needs.
+get_target_property(PPM_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+foreach(folder ${PPM_OIIO_INCLUDES})
+    if(NOT folder MATCHES "^[$]<" AND NOT EXISTS ${folder})
+        list(REMOVE_ITEM PPM_OIIO_INCLUDES ${folder})
+    endif()
+endforeach()
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${PPM_OIIO_INCLUDES}")
 
 find_package(OpenColorIO 2.1 QUIET CONFIG)
 if(TARGET OpenColorIO::OpenColorIO)

@@ -15,3 +15,10 @@ if(PPM_SANITIZE)
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
     target_link_options(ppm_flags INTERFACE -fsanitize=address,undefined)
 endif()
+
+# A second libppm for newer processors makes sense only where the loader knows how to choose.
+if(PPM_HWCAPS AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    set(PPM_HWCAPS_V3 ON)
+else()
+    set(PPM_HWCAPS_V3 OFF)
+endif()

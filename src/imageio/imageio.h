@@ -30,15 +30,12 @@ ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, siz
                                     const char *name, ppmi_pixels *out_pixels);
 void ppmi_imageio_pixels_free(ppm_context *context, ppmi_pixels *pixels);
 
+enum { PPMI_ATTRIBUTE_STRING, PPMI_ATTRIBUTE_INT, PPMI_ATTRIBUTE_FLOAT, PPMI_ATTRIBUTE_FLOATS };
+
 /* One header entry. */
 typedef struct ppmi_image_attribute {
     const char *name;
-    enum {
-        PPMI_ATTRIBUTE_STRING,
-        PPMI_ATTRIBUTE_INT,
-        PPMI_ATTRIBUTE_FLOAT,
-        PPMI_ATTRIBUTE_FLOATS
-    } type;
+    int32_t type; /* PPMI_ATTRIBUTE_ */
     const char *text;
     int64_t integer;     /* written as int where it fits, else as a decimal string */
     const float *floats; /* FLOATS: float_count values (8: chromaticities); FLOAT: the first */
@@ -49,7 +46,9 @@ enum { PPMI_STORE_U8, PPMI_STORE_U16, PPMI_STORE_HALF, PPMI_STORE_FLOAT };
 
 typedef struct ppmi_image_file {
     uint32_t width, height, channels;
-    const float *pixels;              /* width * height * channels, row 0 on top */
+    /* width * height * channels, row 0 on top. Alpha, the second or fourth channel, multiplies the
+     * colours in OpenEXR, by its convention, and does not in the other formats. */
+    const float *pixels;
     const char *const *channel_names; /* channels names, or NULL: R G B A */
     int32_t store;                    /* PPMI_STORE_ */
     uint32_t attribute_count;
@@ -59,9 +58,14 @@ typedef struct ppmi_image_file {
 /* Writes a file whose format follows the ending of path: to a new temporary file in the same
  * folder, flushed, then renamed over path. On failure path is untouched and the temporary is gone.
  * Formats that cannot hold alpha (JPEG) get the first three channels.
- * Returns OK, OUTPUT_NOT_WRITABLE (message has path and reason), OUT_OF_MEMORY. */
+ * Returns OK, INVALID_ARGUMENT (ending; pixels that the format cannot store), OUTPUT_NOT_WRITABLE
+ * (the message has path and reason), OUT_OF_MEMORY. */
 ppm_status ppmi_imageio_write_file(ppm_context *context, const char *path,
                                    const ppmi_image_file *file);
+
+/* Whether ppmi_imageio_write_file could write to path now: an ending that is known, a folder that
+ * takes new files. Returns OK, INVALID_ARGUMENT (ending), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY. */
+ppm_status ppmi_imageio_check_output(ppm_context *context, const char *path);
 
 /* "OpenImageIO 2.4.7.1". Static. */
 const char *ppmi_imageio_version(void);

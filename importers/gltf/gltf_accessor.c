@@ -1,0 +1,275 @@
+/* Accessors: typed arrays over buffer views (glTF 2.0 specification, section 3.6.2). Every byte
+ * that is read has been checked to lie in its buffer view. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "gltf/gltf_reader.h"
+
+/* An accessor without a buffer view is all zeros and costs no bytes in the file; so a small file
+ * could ask for any amount of memory. This is far above what sparse morph targets need. */
+#define MAX_ZERO_ELEMENTS ((size_t)1 << 24)
+
+/* Elements at a fixed distance, in bytes that are known to be there. */
+typedef struct elements {
+    const unsigned char *bytes; /* NULL: zeros */
+    size_t stride, count;
+} elements;
+
+static size_t component_size(int32_t type)
+{
+    switch (type) {
+    case PPMI_GLTF_BYTE:
+    case PPMI_GLTF_UNSIGNED_BYTE:
+        return 1;
+    case PPMI_GLTF_SHORT:
+    case PPMI_GLTF_UNSIGNED_SHORT:
+        return 2;
+    case PPMI_GLTF_UNSIGNED_INT:
+    case PPMI_GLTF_FLOAT:
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+/* count elements of element_size bytes from offset on in a buffer view. stride 0: packed. */
+static ppm_status find_elements(ppmi_gltf_reader *reader, int32_t view, size_t offset, size_t count,
+                                size_t element_size, size_t stride, const char *place,
+                                elements *out)
+{
+    const unsigned char *bytes;
+    size_t available;
+    const ppm_status status = ppmi_gltf_view_bytes(reader, view, place, &bytes, &available);
+    if (status != PPM_STATUS_OK) return status;
+    if (stride == 0) stride = element_size;
+    if (stride < element_size) {
+        return ppmi_gltf_invalid(reader, place,
+                                 "byteStride %zu is less than the element's %zu bytes", stride,
+                                 element_size);
+    }
+    /* offset + (count - 1) * stride + element_size <= available, without overflow */
+    const bool fits = offset <= available && element_size <= available - offset &&
+                      (count - 1) <= (available - offset - element_size) / stride;
+    if (!fits) {
+        return ppmi_gltf_invalid(
+            reader, place,
+            "%zu elements of %zu bytes from %zu do not fit in bufferViews[%d] (%zu bytes)", count,
+            element_size, offset, (int)view, available);
+    }
+    *out = (elements){bytes + offset, stride, count};
+    return PPM_STATUS_OK;
+}
+
+static ppm_status find_base(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
+                            const char *place, elements *out)
+{
+    const size_t size = component_size(accessor->component_type) * accessor->component_count;
+    if (accessor->buffer_view < 0) {
+        if (accessor->count > MAX_ZERO_ELEMENTS - reader->zero_elements) {
+            return ppmi_gltf_invalid(
+                reader, place, "%zu elements without a buffer view are too many", accessor->count);
+        }
+        reader->zero_elements += accessor->count;
+        *out = (elements){NULL, 0, accessor->count};
+        return PPM_STATUS_OK;
+    }
+    size_t stride = 0;
+    if ((size_t)accessor->buffer_view < reader->document->buffer_view_count) {
+        stride = reader->document->buffer_views[accessor->buffer_view].byte_stride;
+    }
+    return find_elements(reader, accessor->buffer_view, accessor->byte_offset, accessor->count,
+                         size, stride, place, out);
+}
+
+static uint32_t load_unsigned(const unsigned char *p, int32_t type)
+{
+    uint16_t u16;
+    uint32_t u32;
+    switch (type) {
+    case PPMI_GLTF_UNSIGNED_BYTE:
+        return p[0];
+    case PPMI_GLTF_UNSIGNED_SHORT:
+        memcpy(&u16, p, sizeof u16);
+        return u16;
+    default:
+        memcpy(&u32, p, sizeof u32);
+        return u32;
+    }
+}
+
+/* Section 3.11: the inverse of how normalised integers are made. */
+static float load_float(const unsigned char *p, int32_t type, bool normalized)
+{
+    int8_t i8;
+    int16_t i16;
+    uint16_t u16;
+    float value;
+    switch (type) {
+    case PPMI_GLTF_BYTE:
+        memcpy(&i8, p, sizeof i8);
+        return normalized ? fmaxf((float)i8 / 127.0f, -1.0f) : (float)i8;
+    case PPMI_GLTF_UNSIGNED_BYTE:
+        return normalized ? (float)p[0] / 255.0f : (float)p[0];
+    case PPMI_GLTF_SHORT:
+        memcpy(&i16, p, sizeof i16);
+        return normalized ? fmaxf((float)i16 / 32767.0f, -1.0f) : (float)i16;
+    case PPMI_GLTF_UNSIGNED_SHORT:
+        memcpy(&u16, p, sizeof u16);
+        return normalized ? (float)u16 / 65535.0f : (float)u16;
+    default:
+        memcpy(&value, p, sizeof value);
+        return value;
+    }
+}
+
+/* ---- conversion ------------------------------------------------------------------------------ */
+
+/* How elements become values: floats or indices. */
+typedef struct conversion {
+    int32_t type;
+    uint32_t components, out_components;
+    bool normalized;
+    float *floats; /* one of the two is set */
+    uint32_t *indices;
+} conversion;
+
+static void convert(const conversion *c, const unsigned char *element, size_t index)
+{
+    if (c->indices) {
+        c->indices[index] = load_unsigned(element, c->type);
+        return;
+    }
+    const size_t size = component_size(c->type);
+    float *out = c->floats + index * c->out_components;
+    for (uint32_t k = 0; k < c->out_components; ++k) {
+        out[k] = k < c->components ? load_float(element + k * size, c->type, c->normalized) : 1.0f;
+    }
+}
+
+static void convert_all(const conversion *c, const elements *from)
+{
+    static const unsigned char zeros[16];
+    for (size_t i = 0; i < from->count; ++i) {
+        convert(c, from->bytes ? from->bytes + i * from->stride : zeros, i);
+    }
+}
+
+/* Replaces the elements that a sparse accessor lists (section 3.6.2.3). */
+static ppm_status convert_sparse(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
+                                 const conversion *c, const char *place)
+{
+    elements indices, values;
+    const int32_t type = accessor->sparse_indices_type;
+    const bool is_unsigned = type == PPMI_GLTF_UNSIGNED_BYTE || type == PPMI_GLTF_UNSIGNED_SHORT ||
+                             type == PPMI_GLTF_UNSIGNED_INT;
+    if (!is_unsigned) {
+        return ppmi_gltf_invalid(reader, place, "sparse.indices.componentType: not unsigned");
+    }
+    ppm_status status =
+        find_elements(reader, accessor->sparse_indices_view, accessor->sparse_indices_offset,
+                      accessor->sparse_count, component_size(type), 0, place, &indices);
+    if (status != PPM_STATUS_OK) return status;
+    status = find_elements(reader, accessor->sparse_values_view, accessor->sparse_values_offset,
+                           accessor->sparse_count, component_size(c->type) * c->components, 0,
+                           place, &values);
+    if (status != PPM_STATUS_OK) return status;
+    for (size_t i = 0; i < accessor->sparse_count; ++i) {
+        const uint32_t index = load_unsigned(indices.bytes + i * indices.stride, type);
+        if (index >= accessor->count) {
+            return ppmi_gltf_invalid(reader, place, "sparse index %u is not below %zu",
+                                     (unsigned)index, accessor->count);
+        }
+        convert(c, values.bytes + i * values.stride, index);
+    }
+    return PPM_STATUS_OK;
+}
+
+/* place becomes "place (accessors[i])", so that both ends of the reference are named. */
+static ppm_status name_accessor(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                                char *inner, const ppmi_gltf_accessor **out)
+{
+    const ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_ACCESSORS, index, place);
+    if (status != PPM_STATUS_OK) return status;
+    snprintf(inner, PPMI_GLTF_PLACE, "%s (accessors[%d])", place, (int)index);
+    *out = &reader->document->accessors[index];
+    return PPM_STATUS_OK;
+}
+
+static ppm_status convert_accessor(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
+                                   const elements *base, const conversion *c, const char *place)
+{
+    convert_all(c, base);
+    return accessor->sparse_count > 0 ? convert_sparse(reader, accessor, c, place) : PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                                 const ppmi_gltf_format *format, float **out_values,
+                                 size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE];
+    const ppmi_gltf_accessor *accessor;
+    elements base;
+    *out_values = NULL;
+    ppm_status status = name_accessor(reader, index, place, inner, &accessor);
+    if (status != PPM_STATUS_OK) return status;
+    const uint32_t components = accessor->component_count;
+    if (components < format->min_components || components > format->max_components) {
+        return ppmi_gltf_invalid(reader, inner, "type: %u components do not suit this attribute",
+                                 (unsigned)components);
+    }
+    const int32_t type = accessor->component_type;
+    if (component_size(type) == 0 || type == PPMI_GLTF_UNSIGNED_INT) {
+        return ppmi_gltf_invalid(reader, inner, "componentType %d does not suit this attribute",
+                                 (int)type);
+    }
+    status = find_base(reader, accessor, inner, &base);
+    if (status != PPM_STATUS_OK) return status;
+    const conversion c = {
+        .type = type,
+        .components = components,
+        .out_components = format->out_components,
+        .normalized = accessor->normalized || format->integers_are_normalized,
+        .floats = ppmi_alloc(reader->context, base.count, format->out_components * sizeof(float))};
+    if (!c.floats) return ppmi_gltf_out_of_memory(reader, inner);
+    status = convert_accessor(reader, accessor, &base, &c, inner);
+    if (status != PPM_STATUS_OK) {
+        ppmi_free(reader->context, c.floats);
+        return status;
+    }
+    *out_values = c.floats;
+    *out_count = base.count;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                                  uint32_t **out_values, size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE];
+    const ppmi_gltf_accessor *accessor;
+    elements base;
+    *out_values = NULL;
+    ppm_status status = name_accessor(reader, index, place, inner, &accessor);
+    if (status != PPM_STATUS_OK) return status;
+    const int32_t type = accessor->component_type;
+    const bool is_unsigned = type == PPMI_GLTF_UNSIGNED_BYTE || type == PPMI_GLTF_UNSIGNED_SHORT ||
+                             type == PPMI_GLTF_UNSIGNED_INT;
+    if (accessor->component_count != 1 || !is_unsigned) {
+        return ppmi_gltf_invalid(reader, inner, "indices must be unsigned scalars");
+    }
+    status = find_base(reader, accessor, inner, &base);
+    if (status != PPM_STATUS_OK) return status;
+    const conversion c = {.type = type,
+                          .components = 1,
+                          .out_components = 1,
+                          .indices = ppmi_alloc(reader->context, base.count, sizeof(uint32_t))};
+    if (!c.indices) return ppmi_gltf_out_of_memory(reader, inner);
+    status = convert_accessor(reader, accessor, &base, &c, inner);
+    if (status != PPM_STATUS_OK) {
+        ppmi_free(reader->context, c.indices);
+        return status;
+    }
+    *out_values = c.indices;
+    *out_count = base.count;
+    return PPM_STATUS_OK;
+}

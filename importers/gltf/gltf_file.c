@@ -1,0 +1,225 @@
+/* Files: the .gltf or .glb itself, its chunks (glTF 2.0 specification, section 4.4), and buffers.
+ * A .glb is read once; its BIN chunk is used where it lies. Buffers are read when something uses
+ * them first, so that an unused one may be missing. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "gltf/gltf_reader.h"
+#include "gltf/gltf_uri.h"
+
+enum { HEADER_SIZE = 12, CHUNK_HEADER_SIZE = 8 };
+#define CHUNK_JSON 0x4e4f534au
+#define CHUNK_BIN 0x004e4942u
+
+/* Opens a regular file (no folder, pipe or device) and finds its size; NULL when that fails. */
+static FILE *open_regular(const char *path, size_t *out_size)
+{
+    struct stat info;
+    FILE *file = fopen(path, "rb");
+    if (!file) return NULL;
+    if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode)) {
+        fclose(file);
+        return NULL;
+    }
+    *out_size = (size_t)info.st_size;
+    return file;
+}
+
+/* The first wanted bytes of a file, all of it for 0. NULL with a reason when that fails. */
+static unsigned char *read_bytes(ppm_context *context, const char *path, size_t wanted,
+                                 size_t *out_count, ppm_status *status, const char **reason)
+{
+    size_t size = 0;
+    FILE *file = open_regular(path, &size);
+    *status = PPM_STATUS_INPUT_NOT_FOUND;
+    *reason = "the file cannot be opened";
+    if (!file) return NULL;
+    const size_t count = wanted > 0 ? wanted : size;
+    unsigned char *bytes = NULL;
+    *status = PPM_STATUS_INPUT_INVALID;
+    if (size == 0) {
+        *reason = "the file is empty";
+    } else if (size < count) {
+        *reason = "the file is shorter than byteLength";
+    } else {
+        bytes = ppmi_alloc(context, count, 1);
+        *status = PPM_STATUS_OUT_OF_MEMORY;
+        *reason = "out of memory";
+    }
+    if (bytes && fread(bytes, 1, count, file) != count) {
+        ppmi_free(context, bytes);
+        bytes = NULL;
+        *status = PPM_STATUS_INPUT_INVALID;
+        *reason = "the file cannot be read";
+    }
+    fclose(file);
+    *out_count = count;
+    return bytes;
+}
+
+static uint32_t load_u32(const unsigned char *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
+           (uint32_t)bytes[3] << 24;
+}
+
+/* The chunk at *at: its type and bytes. False when it does not fit in end. */
+static bool next_chunk(const unsigned char *file, size_t end, size_t *at, uint32_t *type,
+                       const unsigned char **bytes, size_t *length)
+{
+    if (end - *at < CHUNK_HEADER_SIZE) return false;
+    *length = load_u32(file + *at);
+    *type = load_u32(file + *at + 4);
+    *bytes = file + *at + CHUNK_HEADER_SIZE;
+    if (*length > end - *at - CHUNK_HEADER_SIZE) return false;
+    *at += CHUNK_HEADER_SIZE + *length;
+    return true;
+}
+
+static ppm_status split_glb(ppmi_gltf_reader *reader)
+{
+    const unsigned char *file = reader->file;
+    if (reader->file_size < HEADER_SIZE) {
+        return ppmi_gltf_invalid(reader, "header", "the file ends in it");
+    }
+    const uint32_t version = load_u32(file + 4);
+    if (version != 2) {
+        return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
+                         "%s: header: binary glTF %u.0 is not supported, only 2.0", reader->path,
+                         (unsigned)version);
+    }
+    const size_t length = load_u32(file + 8);
+    if (length > reader->file_size || length < HEADER_SIZE) {
+        return ppmi_gltf_invalid(reader, "header",
+                                 "it promises %zu bytes and the file has %zu: truncated or broken",
+                                 length, reader->file_size);
+    }
+    size_t at = HEADER_SIZE, bytes_length;
+    const unsigned char *bytes;
+    uint32_t type;
+    if (!next_chunk(file, length, &at, &type, &bytes, &bytes_length) || type != CHUNK_JSON) {
+        return ppmi_gltf_invalid(reader, "chunk 0", "not a complete JSON chunk");
+    }
+    reader->json = (const char *)bytes;
+    reader->json_length = bytes_length;
+    if (at == length) return PPM_STATUS_OK;
+    if (!next_chunk(file, length, &at, &type, &bytes, &bytes_length)) {
+        return ppmi_gltf_invalid(reader, "chunk 1", "it is longer than the file");
+    }
+    if (type == CHUNK_BIN) { /* clients must ignore chunks of other types */
+        reader->chunk = bytes;
+        reader->chunk_length = bytes_length;
+    }
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader)
+{
+    static const char byte_order_mark[] = "\xef\xbb\xbf";
+    const char *reason;
+    ppm_status status;
+    reader->file =
+        read_bytes(reader->context, reader->path, 0, &reader->file_size, &status, &reason);
+    if (!reader->file) return ppmi_fail(reader->context, status, "%s: %s", reader->path, reason);
+    if (reader->file_size >= 4 && memcmp(reader->file, "glTF", 4) == 0) return split_glb(reader);
+    reader->json = (const char *)reader->file;
+    reader->json_length = reader->file_size;
+    if (reader->json_length >= 3 && memcmp(reader->json, byte_order_mark, 3) == 0) {
+        reader->json += 3; /* not allowed by the specification, but harmless */
+        reader->json_length -= 3;
+    }
+    return PPM_STATUS_OK;
+}
+
+/* ---- buffers --------------------------------------------------------------------------------- */
+
+/* The URI of a buffer without JSON escapes; base64 has none, or "\/" only, and is long, so it is
+ * copied only if need be. */
+static const char *unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span, size_t *length,
+                                char **owned)
+{
+    const char *inside = reader->json + span.begin;
+    *length = span.end - span.begin;
+    *owned = NULL;
+    if (*length == 0 || !memchr(inside, '\\', *length)) return inside;
+    *owned = ppmi_alloc(reader->context, *length, 1);
+    if (!*owned) return NULL;
+    *length = ppmi_gltf_json_unescape(reader->json, span, *owned);
+    return *owned;
+}
+
+static ppm_status load_from_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
+                                size_t wanted, const char *place, ppmi_gltf_bytes *out)
+{
+    char shown[80], *path = NULL;
+    const char *reason;
+    ppm_status status = PPM_STATUS_INPUT_INVALID;
+    if (ppmi_gltf_uri_is_data(uri, length)) {
+        reason = ppmi_gltf_uri_decode_data(reader->context, uri, length, &out->owned, &out->count);
+        if (!reason && out->count < wanted) reason = "the data URI is shorter than byteLength";
+    } else {
+        reason = ppmi_gltf_uri_path(reader->context, reader->path, uri, length, &path);
+        if (!reason) {
+            out->owned = read_bytes(reader->context, path, wanted, &out->count, &status, &reason);
+            if (out->owned) reason = NULL;
+        }
+    }
+    ppmi_free(reader->context, path);
+    if (!reason) {
+        out->data = out->owned;
+        return PPM_STATUS_OK;
+    }
+    ppmi_free(reader->context, out->owned);
+    out->owned = NULL;
+    return ppmi_fail(reader->context, status, "%s: %s.uri (\"%s\"): %s", reader->path, place,
+                     ppmi_gltf_printable(uri, length, shown, sizeof shown), reason);
+}
+
+static ppm_status load_buffer(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_bytes *out)
+{
+    const ppmi_gltf_source *source = &reader->outline.buffers.items[index];
+    char place[PPMI_GLTF_PLACE], *owned;
+    size_t length;
+    snprintf(place, sizeof place, "buffers[%d]", (int)index);
+    if (source->has_uri) {
+        const char *uri = unescape_uri(reader, source->uri, &length, &owned);
+        if (!uri) return ppmi_gltf_out_of_memory(reader, place);
+        const ppm_status status =
+            load_from_uri(reader, uri, length, source->byte_length, place, out);
+        ppmi_free(reader->context, owned);
+        return status;
+    }
+    if (index != 0 || !reader->chunk) return ppmi_gltf_invalid(reader, place, "it has no bytes");
+    if (source->byte_length > reader->chunk_length) {
+        return ppmi_gltf_invalid(reader, place, "byteLength is %zu, the BIN chunk has %zu bytes",
+                                 (size_t)source->byte_length, reader->chunk_length);
+    }
+    out->data = reader->chunk;
+    out->count = source->byte_length;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
+                                const unsigned char **out_bytes, size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE];
+    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFER_VIEWS, view, place);
+    if (status != PPM_STATUS_OK) return status;
+    const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
+    snprintf(inner, sizeof inner, "bufferViews[%d]", (int)view);
+    status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFERS, item->buffer, inner);
+    if (status != PPM_STATUS_OK) return status;
+    const size_t length = reader->outline.buffers.items[item->buffer].byte_length;
+    if (item->byte_offset > length || item->byte_length > length - item->byte_offset) {
+        return ppmi_gltf_invalid(reader, inner,
+                                 "%zu bytes from %zu do not fit in %zu of buffers[%d]",
+                                 item->byte_length, item->byte_offset, length, (int)item->buffer);
+    }
+    ppmi_gltf_bytes *buffer = &reader->buffers[item->buffer];
+    if (!buffer->data) status = load_buffer(reader, item->buffer, buffer);
+    if (status != PPM_STATUS_OK) return status;
+    *out_bytes = buffer->data + item->byte_offset;
+    *out_count = item->byte_length;
+    return PPM_STATUS_OK;
+}

@@ -1,0 +1,235 @@
+/* Meshes: the attributes and indices of their primitives, read and handed to the scene. Anything
+ * wrong with them is an error of the file: a guess would show wrong geometry. */
+#include <stdio.h>
+#include <string.h>
+
+#include "gltf/gltf_geometry.h"
+#include "gltf/gltf_reader.h"
+
+static const ppmi_gltf_format vec2_format = {2, 2, 2, false};
+static const ppmi_gltf_format vec3_format = {3, 3, 3, false};
+static const ppmi_gltf_format vec4_format = {4, 4, 4, false};
+static const ppmi_gltf_format color_format = {3, 4, 4, true};
+
+static void free_geometry(ppm_context *context, ppmi_gltf_geometry *g)
+{
+    ppmi_free(context, g->positions);
+    ppmi_free(context, g->normals);
+    ppmi_free(context, g->tangents);
+    ppmi_free(context, g->colors);
+    for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
+        ppmi_free(context, g->uvs[i]);
+    }
+    ppmi_free(context, g->indices);
+}
+
+static int32_t find_attribute(const ppmi_gltf_primitive *primitive, const char *name)
+{
+    for (uint32_t i = 0; i < primitive->attribute_count; ++i) {
+        if (strcmp(primitive->attributes[i].name, name) == 0)
+            return primitive->attributes[i].accessor;
+    }
+    return -1;
+}
+
+/* An attribute that may be absent; it must have as many elements as POSITION. */
+static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                 const char *name, const ppmi_gltf_format *format,
+                                 const char *place, size_t vertex_count, float **out)
+{
+    char inner[PPMI_GLTF_PLACE];
+    size_t count;
+    const int32_t accessor = find_attribute(primitive, name);
+    if (accessor < 0) return PPM_STATUS_OK;
+    snprintf(inner, sizeof inner, "%s.attributes.%s", place, name);
+    const ppm_status status = ppmi_gltf_read_floats(reader, accessor, inner, format, out, &count);
+    if (status != PPM_STATUS_OK || count == vertex_count) return status;
+    return ppmi_gltf_invalid(reader, inner, "%zu elements, POSITION has %zu", count, vertex_count);
+}
+
+static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                  const char *place, ppmi_gltf_geometry *g)
+{
+    char name[16];
+    const size_t count = g->vertex_count;
+    ppm_status status =
+        read_attribute(reader, primitive, "NORMAL", &vec3_format, place, count, &g->normals);
+    if (status == PPM_STATUS_OK && g->normals) { /* without normals tangents must be ignored */
+        status =
+            read_attribute(reader, primitive, "TANGENT", &vec4_format, place, count, &g->tangents);
+    }
+    if (status == PPM_STATUS_OK) {
+        status =
+            read_attribute(reader, primitive, "COLOR_0", &color_format, place, count, &g->colors);
+    }
+    for (int i = 0; i < PPM_MAX_UV_SETS && status == PPM_STATUS_OK; ++i) {
+        snprintf(name, sizeof name, "TEXCOORD_%d", i);
+        status = read_attribute(reader, primitive, name, &vec2_format, place, count, &g->uvs[i]);
+    }
+    return status;
+}
+
+/* The index list, or 0, 1, 2 ... without one. */
+static ppm_status read_index_list(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                  const char *place, size_t vertex_count, uint32_t **out,
+                                  size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE];
+    snprintf(inner, sizeof inner, "%s.indices", place);
+    if (primitive->indices < 0) {
+        *out_count = vertex_count;
+        *out = ppmi_alloc(reader->context, vertex_count, sizeof **out);
+        if (!*out) return ppmi_gltf_out_of_memory(reader, inner);
+        for (size_t i = 0; i < vertex_count; ++i) {
+            (*out)[i] = (uint32_t)i;
+        }
+        return PPM_STATUS_OK;
+    }
+    const ppm_status status =
+        ppmi_gltf_read_indices(reader, primitive->indices, inner, out, out_count);
+    if (status != PPM_STATUS_OK) return status;
+    for (size_t i = 0; i < *out_count; ++i) {
+        if ((*out)[i] < vertex_count) continue;
+        return ppmi_gltf_invalid(reader, inner, "index %zu is %u, there are %zu vertices", i,
+                                 (unsigned)(*out)[i], vertex_count);
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status read_triangles(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                 const char *place, ppmi_gltf_geometry *g)
+{
+    uint32_t *list = NULL;
+    size_t count = 0;
+    ppm_status status = read_index_list(reader, primitive, place, g->vertex_count, &list, &count);
+    if (status == PPM_STATUS_OK) {
+        if (primitive->mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
+        status = ppmi_gltf_triangles(reader->context, primitive->mode, list, count, &g->indices,
+                                     &g->triangle_count);
+        if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
+    }
+    ppmi_free(reader->context, list);
+    if (status == PPM_STATUS_OK && g->triangle_count > UINT32_MAX) {
+        return ppmi_gltf_invalid(reader, place, "more than 2^32 triangles");
+    }
+    return status;
+}
+
+/* Draco's data may stand beside ordinary ones or instead of them. Then the accessors have no bytes,
+ * and would be read as zeros. */
+static bool is_draco_only(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                          int32_t position)
+{
+    return primitive->is_draco && (size_t)position < reader->document->accessor_count &&
+           reader->document->accessors[position].buffer_view < 0;
+}
+
+/* Fills g; g->triangle_count stays 0 for what cannot be drawn. */
+static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                 const char *place, ppmi_gltf_geometry *g)
+{
+    char inner[PPMI_GLTF_PLACE];
+    const int32_t position = find_attribute(primitive, "POSITION");
+    if (primitive->mode < PPMI_GLTF_TRIANGLES) {
+        reader->tally.points_or_lines++;
+        return PPM_STATUS_OK;
+    }
+    if (position < 0) {
+        reader->tally.no_positions++;
+        return PPM_STATUS_OK;
+    }
+    if (is_draco_only(reader, primitive, position)) {
+        return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
+                         "%s: %s: KHR_draco_mesh_compression is not supported: the geometry is "
+                         "compressed; write the file without mesh compression",
+                         reader->path, place);
+    }
+    if (primitive->has_targets) reader->tally.morph_targets++;
+    snprintf(inner, sizeof inner, "%s.attributes.POSITION", place);
+    ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
+                                              &g->vertex_count);
+    if (status != PPM_STATUS_OK) return status;
+    if (g->vertex_count > UINT32_MAX) {
+        return ppmi_gltf_invalid(reader, inner, "more than 2^32 vertices");
+    }
+    status = read_triangles(reader, primitive, place, g);
+    if (status != PPM_STATUS_OK || g->triangle_count == 0) return status;
+    status = read_attributes(reader, primitive, place, g);
+    if (status != PPM_STATUS_OK) return status;
+    if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
+    snprintf(inner, sizeof inner, "%s.material", place);
+    return ppmi_gltf_use_material(reader, primitive->material, inner, &g->material);
+}
+
+static void describe(const ppmi_gltf_geometry *g, ppm_primitive_desc *out)
+{
+    *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertex_count,
+                                .triangle_count = (uint32_t)g->triangle_count,
+                                .positions = g->positions,
+                                .normals = g->normals,
+                                .tangents = g->tangents,
+                                .colors = g->colors,
+                                .indices = g->indices,
+                                .material = g->material};
+    for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
+        out->uvs[i] = g->uvs[i];
+    }
+}
+
+/* Hands the drawable ones of a mesh's primitives to the scene. */
+static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
+                       const ppmi_gltf_geometry *all, ppm_primitive_desc *descs,
+                       ppm_mesh_id *out_id)
+{
+    char name[PPMI_GLTF_PLACE];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
+        if (all[i].triangle_count > 0) describe(&all[i], &descs[count++]);
+    }
+    *out_id = 0;
+    if (count == 0) return PPM_STATUS_OK;
+    const ppm_mesh_desc desc = {
+        .size = sizeof desc,
+        .name = ppmi_gltf_printable(mesh->name, strlen(mesh->name), name, sizeof name),
+        .primitive_count = count,
+        .primitives = descs};
+    return ppm_scene_add_mesh(reader->scene, &desc, out_id);
+}
+
+static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id *out_id)
+{
+    const ppmi_gltf_mesh *mesh = &reader->document->meshes[index];
+    char place[PPMI_GLTF_PLACE];
+    *out_id = 0;
+    if (mesh->primitive_count == 0) return PPM_STATUS_OK;
+    snprintf(place, sizeof place, "meshes[%d]", (int)index);
+    ppmi_gltf_geometry *all =
+        ppmi_alloc_zeroed(reader->context, mesh->primitive_count, sizeof *all);
+    ppm_primitive_desc *descs = ppmi_alloc(reader->context, mesh->primitive_count, sizeof *descs);
+    ppm_status status = PPM_STATUS_OK;
+    if (!all || !descs) status = ppmi_gltf_out_of_memory(reader, place);
+    for (uint32_t i = 0; i < mesh->primitive_count && status == PPM_STATUS_OK; ++i) {
+        snprintf(place, sizeof place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
+        status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
+    }
+    if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);
+    for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
+        free_geometry(reader->context, &all[i]);
+    }
+    ppmi_free(reader->context, all);
+    ppmi_free(reader->context, descs);
+    return status;
+}
+
+ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char *place,
+                              ppm_mesh_id *out_id)
+{
+    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_MESHES, mesh, place);
+    if (status != PPM_STATUS_OK) return status;
+    if (reader->meshes[mesh] == 0 && !reader->empty_meshes[mesh]) {
+        status = import_mesh(reader, mesh, &reader->meshes[mesh]);
+        reader->empty_meshes[mesh] = reader->meshes[mesh] == 0;
+    }
+    *out_id = reader->meshes[mesh];
+    return status;
+}

@@ -1,0 +1,137 @@
+/* The state of one import, shared by its passes: file -> check -> parse -> nodes, which pull in the
+ * meshes, materials and images that they use. */
+#ifndef PPMI_GLTF_READER_H
+#define PPMI_GLTF_READER_H
+
+#include <stdint.h>
+
+#include "gltf/gltf_check.h"
+#include "gltf/gltf_shim.h"
+#include "ppm/import.h"
+
+enum { PPMI_GLTF_PLACE = 256 }; /* bytes for a JSON path in a message */
+
+/* A loaded buffer. */
+typedef struct ppmi_gltf_bytes {
+    const unsigned char *data; /* NULL: not loaded yet */
+    unsigned char *owned;      /* data, unless it is the GLB's chunk */
+    size_t count;
+} ppmi_gltf_bytes;
+
+/* An image in one role. */
+typedef struct ppmi_gltf_image_use {
+    bool is_tried;
+    ppm_image_id id; /* 0 after a failure */
+} ppmi_gltf_image_use;
+
+/* What is counted and told once, at the end. */
+typedef struct ppmi_gltf_tally {
+    size_t instances;
+    size_t punctual_lights;
+    size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
+    size_t solid_glass, thin_glass;
+} ppmi_gltf_tally;
+
+typedef struct ppmi_gltf_reader {
+    ppm_context *context;
+    ppm_scene *scene;
+    const ppm_import_options *options;
+    const char *path; /* of the file; also its name in messages */
+
+    unsigned char *file; /* the whole file */
+    size_t file_size;
+    const char *json; /* parts of it */
+    size_t json_length;
+    const unsigned char *chunk; /* the GLB's BIN chunk, or NULL */
+    size_t chunk_length;
+
+    ppmi_gltf_outline outline;
+    const ppmi_gltf_document *document;
+
+    ppmi_gltf_bytes *buffers;         /* one per buffer */
+    ppmi_gltf_image_use *images;      /* two per image: colour, data */
+    ppm_material_id *materials;       /* one per material; 0: not added yet */
+    ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
+    bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
+    ppm_material_id default_material; /* 0: not added yet */
+    size_t zero_elements;             /* of accessors that have no bytes in the file */
+    bool from_blender;                /* asset.generator is Khronos' Blender exporter */
+    ppmi_gltf_tally tally;
+} ppmi_gltf_reader;
+
+/* ---- gltf_file.c: files, GLB, buffers -------------------------------------------------------- */
+
+/* Reads reader->path and finds the JSON and the BIN chunk in it. */
+ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader);
+
+/* The bytes of a buffer view. place is the JSON path of the reference, for messages. The bytes stay
+ * valid until the reader ends. */
+ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
+                                const unsigned char **out_bytes, size_t *out_count);
+
+/* ---- gltf_reader.c: references --------------------------------------------------------------- */
+
+/* Whether element index of a list exists and is sound; otherwise why not, in reason. */
+bool ppmi_gltf_is_usable(const ppmi_gltf_reader *reader, int list, int32_t index, char *reason,
+                         size_t reason_size);
+
+/* The same as an error of the file (vital parts) or as a warning (parts that can be left out). */
+ppm_status ppmi_gltf_require(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
+bool ppmi_gltf_accept(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
+
+/* INPUT_INVALID with file, place and reason. */
+ppm_status ppmi_gltf_invalid(ppmi_gltf_reader *reader, const char *place, const char *format, ...)
+    PPMI_PRINTF(3, 4);
+/* A warning with file and place. */
+void ppmi_gltf_warn(ppmi_gltf_reader *reader, const char *place, const char *format, ...)
+    PPMI_PRINTF(3, 4);
+ppm_status ppmi_gltf_out_of_memory(ppmi_gltf_reader *reader, const char *place);
+
+/* text without control characters, cut to size, for messages. Returns buffer. */
+const char *ppmi_gltf_printable(const char *text, size_t length, char *buffer, size_t size);
+
+/* ---- gltf_accessor.c ------------------------------------------------------------------------- */
+
+/* What an attribute may look like, and what comes out of it. */
+typedef struct ppmi_gltf_format {
+    uint32_t min_components, max_components; /* of the accessor */
+    uint32_t out_components;                 /* of the result; missing ones are 1 */
+    bool integers_are_normalized;            /* even where the accessor does not say so */
+} ppmi_gltf_format;
+
+/* Reads an accessor as floats, count * format->out_components of them. *out_values is the caller's
+ * to free, NULL on failure. */
+ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
+                                 const ppmi_gltf_format *format, float **out_values,
+                                 size_t *out_count);
+
+/* Reads an accessor of unsigned integers. */
+ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
+                                  uint32_t **out_values, size_t *out_count);
+
+/* ---- the passes ------------------------------------------------------------------------------ */
+
+/* gltf_node.c: walks the scene and adds instances, cameras and lights. */
+ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader);
+
+/* gltf_mesh.c: the mesh's id, adding it at its first use; 0 when nothing in it can be drawn. */
+ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char *place,
+                              ppm_mesh_id *out_id);
+
+/* gltf_material.c: the material's id, adding it at its first use; -1 is the default material. */
+ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, const char *place,
+                                  ppm_material_id *out_id);
+
+/* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
+ * cannot be had is left out with a warning: out_texture->image is then 0. */
+ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,
+                                 int32_t role, const char *place, ppm_texture *out_texture);
+
+/* gltf_camera_light.c: adds the camera or light of a node. world is its column-major transform. */
+ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
+ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
+
+/* The light units in effect, PPM_LIGHT_UNITS_ without AUTO. */
+int32_t ppmi_gltf_light_units(const ppmi_gltf_reader *reader);
+
+#endif

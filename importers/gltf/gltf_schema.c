@@ -1,0 +1,222 @@
+/* What the members of a glTF 2.0 document must look like (glTF 2.0 specification, chapter 5, and
+ * the extensions' schemas), as far as the importer uses them. VITAL marks what decides about
+ * geometry, and what tinygltf refuses a whole document for. */
+#include "gltf/gltf_schema.h"
+
+#include "gltf/gltf_check.h"
+
+#define INDEX_MAX 2147483647.0
+#define SIZE_MAX_EXACT 9007199254740992.0 /* 2^53 */
+
+#define FIELD(name, what, ...)                                                                     \
+    {                                                                                              \
+        .key = name, .kind = what, __VA_ARGS__                                                     \
+    }
+#define INDEX(name, bits) FIELD(name, GLTF_INTEGER, .flags = (bits), .max = INDEX_MAX)
+#define SIZE(name, bits) FIELD(name, GLTF_INTEGER, .flags = (bits), .max = SIZE_MAX_EXACT)
+#define NUMBER(name) FIELD(name, GLTF_NUMBER)
+#define NUMBERS(name, count, bits)                                                                 \
+    FIELD(name, GLTF_NUMBERS, .flags = (bits), .min_items = (count), .max_items = (count))
+#define STRING(name) FIELD(name, GLTF_STRING)
+#define OBJECT(name, table) FIELD(name, GLTF_OBJECT, .fields = table)
+#define VITAL_OBJECT(name, table, bits)                                                            \
+    FIELD(name, GLTF_OBJECT, .flags = GLTF_VITAL | (bits), .fields = table)
+#define END                                                                                        \
+    {                                                                                              \
+        .key = 0                                                                                   \
+    }
+
+/* ---- geometry -------------------------------------------------------------------------------- */
+
+static const gltf_field sparse_indices[] = {
+    INDEX("bufferView", GLTF_VITAL | GLTF_REQUIRED), INDEX("byteOffset", GLTF_VITAL),
+    FIELD("componentType", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 5120,
+          .max = 5126),
+    END};
+static const gltf_field sparse_values[] = {INDEX("bufferView", GLTF_VITAL | GLTF_REQUIRED),
+                                           INDEX("byteOffset", GLTF_VITAL), END};
+static const gltf_field sparse[] = {
+    FIELD("count", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1, .max = INDEX_MAX),
+    VITAL_OBJECT("indices", sparse_indices, GLTF_REQUIRED),
+    VITAL_OBJECT("values", sparse_values, GLTF_REQUIRED), END};
+static const gltf_field accessor[] = {
+    INDEX("bufferView", GLTF_VITAL),
+    SIZE("byteOffset", GLTF_VITAL),
+    FIELD("componentType", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 5120,
+          .max = 5126),
+    FIELD("normalized", GLTF_BOOLEAN, .flags = GLTF_VITAL),
+    FIELD("count", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
+          .max = SIZE_MAX_EXACT),
+    FIELD("type", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED,
+          .choices = " SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4 "),
+    VITAL_OBJECT("sparse", sparse, 0),
+    END};
+static const gltf_field buffer[] = {FIELD("uri", GLTF_STRING, .flags = GLTF_VITAL),
+                                    FIELD("byteLength", GLTF_INTEGER,
+                                          .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
+                                          .max = SIZE_MAX_EXACT),
+                                    END};
+static const gltf_field buffer_view[] = {
+    INDEX("buffer", GLTF_VITAL | GLTF_REQUIRED), SIZE("byteOffset", GLTF_VITAL),
+    FIELD("byteLength", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
+          .max = SIZE_MAX_EXACT),
+    FIELD("byteStride", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 252, .step = 4), END};
+
+/* tinygltf refuses indices whose accessor has no buffer view or does not exist. Under the key
+ * "extras" it hands the number on as it is; the shim takes it from there. */
+static const gltf_field primitive[] = {
+    FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("indices", GLTF_INTEGER, .flags = GLTF_VITAL, .max = INDEX_MAX, .rename = "extras"),
+    FIELD("extras", GLTF_ANY, .rename = "_"),
+    INDEX("material", GLTF_VITAL),
+    FIELD("mode", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 6),
+    END};
+static const gltf_field mesh[] = {
+    STRING("name"),
+    FIELD("primitives", GLTF_OBJECTS, .flags = GLTF_VITAL | GLTF_REQUIRED, .fields = primitive),
+    END};
+
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+static const gltf_field node_light[] = {INDEX("light", GLTF_REQUIRED), END};
+static const gltf_field node_instancing[] = {
+    FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
+static const gltf_field node_extensions[] = {
+    OBJECT("KHR_lights_punctual", node_light),
+    VITAL_OBJECT("EXT_mesh_gpu_instancing", node_instancing, 0), END};
+static const gltf_field node[] = {
+    STRING("name"),
+    INDEX("mesh", GLTF_VITAL),
+    INDEX("camera", 0),
+    INDEX("skin", 0),
+    FIELD("children", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX),
+    NUMBERS("matrix", 16, GLTF_VITAL),
+    NUMBERS("translation", 3, GLTF_VITAL),
+    NUMBERS("rotation", 4, GLTF_VITAL),
+    NUMBERS("scale", 3, GLTF_VITAL),
+    OBJECT("extensions", node_extensions),
+    END};
+static const gltf_field scene[] = {
+    STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX), END};
+
+static const gltf_field perspective[] = {
+    NUMBER("aspectRatio"), FIELD("yfov", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("znear", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED), NUMBER("zfar"), END};
+static const gltf_field orthographic[] = {
+    FIELD("xmag", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("ymag", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("zfar", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("znear", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
+static const gltf_field camera[] = {STRING("name"),
+                                    FIELD("type", GLTF_STRING,
+                                          .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
+                                          .choices = " perspective orthographic "),
+                                    VITAL_OBJECT("perspective", perspective, 0),
+                                    VITAL_OBJECT("orthographic", orthographic, 0), END};
+
+static const gltf_field spot[] = {NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END};
+static const gltf_field light[] = {STRING("name"),
+                                   NUMBERS("color", 3, 0),
+                                   NUMBER("intensity"),
+                                   NUMBER("range"),
+                                   FIELD("type", GLTF_STRING,
+                                         .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
+                                         .choices = " point spot directional "),
+                                   VITAL_OBJECT("spot", spot, 0),
+                                   END};
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+static const gltf_field texture_transform[] = {NUMBERS("offset", 2, 0), NUMBER("rotation"),
+                                               NUMBERS("scale", 2, 0), INDEX("texCoord", 0), END};
+static const gltf_field texture_info_extensions[] = {
+    OBJECT("KHR_texture_transform", texture_transform), END};
+static const gltf_field texture_info[] = {INDEX("index", GLTF_REQUIRED),
+                                          INDEX("texCoord", 0),
+                                          NUMBER("scale"),
+                                          NUMBER("strength"),
+                                          OBJECT("extensions", texture_info_extensions),
+                                          END};
+static const gltf_field pbr[] = {NUMBERS("baseColorFactor", 4, 0),
+                                 OBJECT("baseColorTexture", texture_info),
+                                 NUMBER("metallicFactor"),
+                                 NUMBER("roughnessFactor"),
+                                 OBJECT("metallicRoughnessTexture", texture_info),
+                                 END};
+static const gltf_field emissive_strength[] = {NUMBER("emissiveStrength"), END};
+static const gltf_field ior[] = {NUMBER("ior"), END};
+static const gltf_field specular[] = {
+    NUMBER("specularFactor"), OBJECT("specularTexture", texture_info),
+    NUMBERS("specularColorFactor", 3, 0), OBJECT("specularColorTexture", texture_info), END};
+static const gltf_field transmission[] = {NUMBER("transmissionFactor"),
+                                          OBJECT("transmissionTexture", texture_info), END};
+static const gltf_field volume[] = {
+    NUMBER("thicknessFactor"), OBJECT("thicknessTexture", texture_info),
+    NUMBER("attenuationDistance"), NUMBERS("attenuationColor", 3, 0), END};
+static const gltf_field no_fields[] = {END};
+static const gltf_field material_extensions[] = {
+    OBJECT("KHR_materials_emissive_strength", emissive_strength),
+    OBJECT("KHR_materials_ior", ior),
+    OBJECT("KHR_materials_specular", specular),
+    OBJECT("KHR_materials_transmission", transmission),
+    OBJECT("KHR_materials_unlit", no_fields),
+    OBJECT("KHR_materials_volume", volume),
+    END};
+static const gltf_field material[] = {
+    STRING("name"),
+    OBJECT("pbrMetallicRoughness", pbr),
+    OBJECT("normalTexture", texture_info),
+    OBJECT("occlusionTexture", texture_info),
+    OBJECT("emissiveTexture", texture_info),
+    NUMBERS("emissiveFactor", 3, 0),
+    FIELD("alphaMode", GLTF_STRING, .choices = " OPAQUE MASK BLEND "),
+    NUMBER("alphaCutoff"),
+    FIELD("doubleSided", GLTF_BOOLEAN),
+    OBJECT("extensions", material_extensions),
+    END};
+
+static const gltf_field texture_source[] = {INDEX("source", GLTF_REQUIRED), END};
+static const gltf_field texture_extensions[] = {OBJECT("EXT_texture_webp", texture_source),
+                                                OBJECT("KHR_texture_basisu", texture_source), END};
+static const gltf_field texture[] = {INDEX("sampler", 0), INDEX("source", 0),
+                                     OBJECT("extensions", texture_extensions), END};
+static const gltf_field image[] = {STRING("name"), FIELD("uri", GLTF_STRING, .flags = GLTF_VITAL),
+                                   STRING("mimeType"), INDEX("bufferView", GLTF_VITAL), END};
+static const gltf_field sampler[] = {INDEX("magFilter", 0), INDEX("minFilter", 0),
+                                     INDEX("wrapS", 0), INDEX("wrapT", 0), END};
+
+/* ---- the root -------------------------------------------------------------------------------- */
+
+#define LIST(name, id, bits, table, instead)                                                       \
+    FIELD(name, GLTF_LIST, .flags = (bits), .list = (id), .fields = table, .placeholder = instead)
+
+static const gltf_field punctual[] = {
+    LIST("lights", PPMI_GLTF_LIGHTS, 0, light, "{\"type\":\"point\"}"), END};
+static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual), END};
+static const gltf_field asset[] = {
+    FIELD("version", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), STRING("generator"),
+    STRING("minVersion"), END};
+
+const gltf_field ppmi_gltf_schema[] = {
+    VITAL_OBJECT("asset", asset, GLTF_REQUIRED),
+    FIELD("extensionsUsed", GLTF_STRINGS),
+    FIELD("extensionsRequired", GLTF_STRINGS, .flags = GLTF_VITAL),
+    FIELD("scene", GLTF_INTEGER, .flags = GLTF_VITAL, .max = INDEX_MAX),
+    LIST("scenes", PPMI_GLTF_SCENES, GLTF_VITAL, scene, "{}"),
+    LIST("nodes", PPMI_GLTF_NODES, GLTF_VITAL, node, "{}"),
+    LIST("meshes", PPMI_GLTF_MESHES, GLTF_VITAL, mesh, "{\"primitives\":[]}"),
+    LIST("accessors", PPMI_GLTF_ACCESSORS, GLTF_VITAL, accessor,
+         "{\"componentType\":5121,\"count\":1,\"type\":\"SCALAR\"}"),
+    LIST("bufferViews", PPMI_GLTF_BUFFER_VIEWS, GLTF_VITAL, buffer_view,
+         "{\"buffer\":0,\"byteLength\":1}"),
+    LIST("buffers", PPMI_GLTF_BUFFERS, GLTF_VITAL | GLTF_EMPTY_FOR_TINYGLTF, buffer, "{}"),
+    LIST("materials", PPMI_GLTF_MATERIALS, 0, material, "{}"),
+    LIST("textures", PPMI_GLTF_TEXTURES, 0, texture, "{}"),
+    LIST("images", PPMI_GLTF_IMAGES, GLTF_EMPTY_FOR_TINYGLTF, image, "{}"),
+    LIST("samplers", PPMI_GLTF_SAMPLERS, 0, sampler, "{}"),
+    LIST("cameras", PPMI_GLTF_CAMERAS, 0, camera,
+         "{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}"),
+    LIST("animations", PPMI_GLTF_ANIMATIONS, GLTF_EMPTY_FOR_TINYGLTF, no_fields, "{}"),
+    LIST("skins", PPMI_GLTF_SKINS, GLTF_EMPTY_FOR_TINYGLTF, no_fields, "{}"),
+    OBJECT("extensions", root_extensions),
+    END};

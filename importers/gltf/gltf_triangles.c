@@ -1,0 +1,57 @@
+/* Triangle lists from lists, strips and fans (glTF 2.0 specification, section 3.7.2.1). */
+#include <string.h>
+
+#include "gltf/gltf_geometry.h"
+
+static size_t triangle_count(int32_t mode, size_t count)
+{
+    if (mode == PPMI_GLTF_TRIANGLES) return count / 3;
+    return count < 3 ? 0 : count - 2;
+}
+
+/* The places in the index list of triangle i's corners. */
+static void corners(int32_t mode, size_t i, size_t out[3])
+{
+    const size_t odd = i & 1;
+    switch (mode) {
+    case PPMI_GLTF_TRIANGLE_STRIP:
+        out[0] = i;
+        out[1] = i + 1 + odd;
+        out[2] = i + 2 - odd;
+        break;
+    case PPMI_GLTF_TRIANGLE_FAN:
+        out[0] = i + 1;
+        out[1] = i + 2;
+        out[2] = 0;
+        break;
+    default:
+        out[0] = 3 * i;
+        out[1] = 3 * i + 1;
+        out[2] = 3 * i + 2;
+        break;
+    }
+}
+
+ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,
+                               size_t count, uint32_t **out_indices, size_t *out_triangles)
+{
+    const size_t triangles = triangle_count(mode, count);
+    size_t kept = 0;
+    *out_indices = NULL;
+    *out_triangles = 0;
+    if (triangles == 0) return PPM_STATUS_OK;
+    uint32_t *out = ppmi_alloc(context, triangles, 3 * sizeof *out);
+    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
+    for (size_t i = 0; i < triangles; ++i) {
+        size_t c[3];
+        corners(mode, i, c);
+        const uint32_t t[3] = {indices[c[0]], indices[c[1]], indices[c[2]]};
+        /* strips repeat an index to start anew; no fault, so the scene need not count it */
+        const bool is_empty = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+        if (is_empty && mode != PPMI_GLTF_TRIANGLES) continue;
+        memcpy(out + 3 * kept++, t, sizeof t);
+    }
+    *out_indices = out;
+    *out_triangles = kept;
+    return PPM_STATUS_OK;
+}

@@ -1,0 +1,163 @@
+/* URIs: RFC 2397 for data, RFC 3986 for the rest. A file that somebody sends must not make us read
+ * outside of its folder, so only relative paths that stay inside are files; symbolic links in the
+ * folder are its owner's affair. */
+#include "gltf/gltf_uri.h"
+
+#include <stdint.h>
+#include <string.h>
+
+static bool equals_ignoring_case(const char *a, const char *b, size_t length)
+{
+    for (size_t i = 0; i < length; ++i) {
+        const char lower = (char)(a[i] >= 'A' && a[i] <= 'Z' ? a[i] + 32 : a[i]);
+        if (lower != b[i]) return false;
+    }
+    return true;
+}
+
+bool ppmi_gltf_uri_is_data(const char *uri, size_t length)
+{
+    return length >= 5 && equals_ignoring_case(uri, "data:", 5);
+}
+
+static int hex_value(char c)
+{
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/* Decodes %XX; other percent signs stay. out holds length bytes. Returns how many are used. */
+static size_t percent_decode(const char *text, size_t length, char *out)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < length; ++i) {
+        const bool is_escape = text[i] == '%' && length - i > 2 && hex_value(text[i + 1]) >= 0 &&
+                               hex_value(text[i + 2]) >= 0;
+        if (is_escape) {
+            out[count++] = (char)(hex_value(text[i + 1]) * 16 + hex_value(text[i + 2]));
+            i += 2;
+        } else {
+            out[count++] = text[i];
+        }
+    }
+    return count;
+}
+
+static int base64_value(char c)
+{
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+' || c == '-') return 62; /* - and _: base64url */
+    if (c == '/' || c == '_') return 63;
+    return -1;
+}
+
+/* False for a character that is none of base64's. out holds length * 3 / 4 bytes. */
+static bool base64_decode(const char *text, size_t length, unsigned char *out, size_t *out_count)
+{
+    uint32_t bits = 0;
+    unsigned bit_count = 0;
+    size_t count = 0;
+    while (length > 0 && text[length - 1] == '=') {
+        --length;
+    }
+    for (size_t i = 0; i < length; ++i) {
+        const int value = base64_value(text[i]);
+        if (value < 0) return false;
+        bits = bits << 6 | (uint32_t)value;
+        bit_count += 6;
+        if (bit_count >= 8) {
+            bit_count -= 8;
+            out[count++] = (unsigned char)(bits >> bit_count);
+        }
+    }
+    *out_count = count;
+    return true;
+}
+
+const char *ppmi_gltf_uri_decode_data(ppm_context *context, const char *uri, size_t length,
+                                      unsigned char **out_bytes, size_t *out_count)
+{
+    static const char base64[] = ";base64";
+    const size_t mark = sizeof base64 - 1;
+    *out_bytes = NULL;
+    *out_count = 0;
+    const char *comma = memchr(uri, ',', length);
+    if (!comma) return "the data URI has no comma";
+    const size_t header = (size_t)(comma - uri), rest = length - header - 1;
+    if (rest == 0) return NULL;
+    unsigned char *bytes = ppmi_alloc(context, rest, 1);
+    if (!bytes) return "out of memory";
+    const bool is_base64 = header >= mark && equals_ignoring_case(comma - mark, base64, mark);
+    if (!is_base64) {
+        *out_count = percent_decode(comma + 1, rest, (char *)bytes);
+    } else if (!base64_decode(comma + 1, rest, bytes, out_count)) {
+        ppmi_free(context, bytes);
+        return "the data URI is not base64";
+    }
+    *out_bytes = bytes;
+    return NULL;
+}
+
+/* scheme ":" of RFC 3986, section 3.1. */
+static bool has_scheme(const char *uri, size_t length)
+{
+    for (size_t i = 0; i < length; ++i) {
+        const char c = uri[i];
+        const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        if (c == ':') return i > 0;
+        if (i == 0 && !is_letter) return false;
+        if (!is_letter && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.') return false;
+    }
+    return false;
+}
+
+/* Whether the segments of a decoded path never go above where they start. */
+static bool stays_inside(const char *path)
+{
+    int depth = 0;
+    while (*path) {
+        const size_t length = strcspn(path, "/");
+        if (length == 2 && path[0] == '.' && path[1] == '.') {
+            if (--depth < 0) return false;
+        } else if (length > 0 && !(length == 1 && path[0] == '.')) {
+            ++depth;
+        }
+        path += length;
+        path += *path == '/';
+    }
+    return depth > 0;
+}
+
+const char *ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, const char *uri,
+                               size_t length, char **out_path)
+{
+    *out_path = NULL;
+    if (length == 0) return "the URI is empty";
+    if (has_scheme(uri, length)) return "only files in the asset's folder are read, no other URI";
+    const char *slash = strrchr(asset_path, '/');
+    const size_t folder = slash ? (size_t)(slash - asset_path) + 1 : 0;
+    char *path = ppmi_alloc(context, folder + length + 1, 1);
+    if (!path) return "out of memory";
+    memcpy(path, asset_path, folder);
+    char *relative = path + folder;
+    const size_t count = percent_decode(uri, length, relative);
+    relative[count] = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (relative[i] == '\\')
+            relative[i] = '/'; /* not legal in a URI; some exporters write it */
+    }
+    const char *fault = NULL;
+    if (memchr(relative, 0, count)) fault = "the URI holds a zero byte";
+    if (!fault && relative[0] == '/') fault = "absolute paths are not read";
+    if (!fault && !stays_inside(relative)) fault = "the path leaves the asset's folder";
+    if (fault) {
+        ppmi_free(context, path);
+        return fault;
+    }
+    *out_path = path;
+    return NULL;
+}

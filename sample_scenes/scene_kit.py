@@ -1,0 +1,280 @@
+"""What the sample scenes share: meshes, materials, glTF export and a Cycles reference.
+
+Runs inside Blender 3.4:
+
+    blender --background --factory-startup --threads 1 --python SCENE.py
+
+Blender has +Z up and metres; its exporter turns the scene to glTF's +Y up. Meshes are made from
+explicit vertex lists, and with one thread Blender sums the vertex normals in one order, so that
+a scene comes out the same, byte for byte, each time.
+"""
+
+import json
+import math
+import os
+import struct
+import sys
+
+import bpy
+import mathutils
+
+
+# ---- scene and objects ---------------------------------------------------------------------
+
+
+def new_scene(width, height):
+    """Empties Blender and sets the picture size, which gives the camera's aspect and yfov."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.resolution_x = width
+    scene.render.resolution_y = height
+    scene.render.resolution_percentage = 100
+    return scene
+
+
+def link(name, data, location=(0.0, 0.0, 0.0)):
+    """An object for data in the current scene."""
+    thing = bpy.data.objects.new(name, data)
+    thing.location = location
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def add_mesh(name, vertices, faces, material, location=(0.0, 0.0, 0.0), smooth=True, uvs=None):
+    """A mesh object; uvs has one (u, v) per vertex, v up as in Blender."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(vertices, [], faces)
+    mesh.polygons.foreach_set("use_smooth", [smooth] * len(faces))
+    if uvs:
+        layer = mesh.uv_layers.new(name="UVMap")
+        for loop in mesh.loops:
+            layer.data[loop.index].uv = uvs[loop.vertex_index]
+    mesh.materials.append(material)
+    mesh.validate()
+    mesh.update()
+    return link(name, mesh, location)
+
+
+def add_quad(name, corner, edge_u, edge_v, material, uvs=None):
+    """A flat parallelogram that faces along edge_u x edge_v."""
+    corner, edge_u, edge_v = map(mathutils.Vector, (corner, edge_u, edge_v))
+    corners = [corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v]
+    return add_mesh(name, corners, [(0, 1, 2, 3)], material, smooth=False, uvs=uvs)
+
+
+def add_sphere(name, location, radius, material, segments=80, rings=40):
+    """A smooth latitude-longitude sphere."""
+    profile = []
+    for ring in range(rings + 1):
+        angle = math.pi * (ring / rings - 0.5)
+        profile.append((radius * math.cos(angle), radius * math.sin(angle)))
+    return add_lathe(name, profile, material, location, segments)
+
+
+def add_lathe(name, profile, material, location=(0.0, 0.0, 0.0), segments=128, closed=False):
+    """Turns a profile of (radius, height) points about the vertical axis.
+
+    The outside is on the right hand of the profile's direction, radius to the right and height
+    up. First and last point of an open profile must lie on the axis; a closed one is a loop.
+    """
+    on_axis = [not closed and i in (0, len(profile) - 1) for i in range(len(profile))]
+    vertices, rows = [], []
+    for (radius, height), pole in zip(profile, on_axis):
+        count = 1 if pole else segments
+        first = len(vertices)
+        rows.append([first + (k % count) for k in range(segments + 1)])
+        for k in range(count):
+            turn = 2.0 * math.pi * k / segments
+            place = 0.0 if pole else radius
+            vertices.append((place * math.cos(turn), place * math.sin(turn), height))
+    faces = []
+    for lower, upper in zip(rows, rows[1:] + rows[:1] if closed else rows[1:]):
+        for k in range(segments):
+            corners = (lower[k], lower[k + 1], upper[k + 1], upper[k])
+            faces.append(tuple(dict.fromkeys(corners)))  # a pole gives a triangle
+    return add_mesh(name, vertices, faces, material, location)
+
+
+def add_camera(location, target, fov_degrees):
+    """The camera, named "Camera"; fov is the angle of the picture's longer side."""
+    data = bpy.data.cameras.new("Camera")
+    data.sensor_fit = "AUTO"
+    data.angle = math.radians(fov_degrees)
+    data.clip_start = 0.01
+    camera = link("Camera", data, location)
+    aim(camera, target)
+    bpy.context.scene.camera = camera
+    return camera
+
+
+def aim(thing, target):
+    """Turns a camera or lamp so that its -Z axis points at target, +Y up in the picture."""
+    direction = mathutils.Vector(target) - thing.location
+    thing.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
+
+
+# ---- materials -----------------------------------------------------------------------------
+
+
+def principled(name, color, **inputs):
+    """A Principled BSDF; further inputs by Blender's names, blanks written as underscores."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    shader = material.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Base Color"].default_value = (*color, 1.0)
+    for key, value in inputs.items():
+        shader.inputs[key.replace("_", " ")].default_value = value
+    return material
+
+
+def lambert(name, color):
+    """A matte material; finish() makes it exactly Lambert in the file and for Cycles."""
+    material = principled(name, color, Roughness=1.0, Specular=0.0)
+    material["lambert"] = True
+    return material
+
+
+def glass(name, ior, color=(1.0, 1.0, 1.0)):
+    """Smooth solid glass."""
+    return principled(name, color, Roughness=0.0, Transmission=1.0, IOR=ior)
+
+
+def emitter(name, color, strength):
+    """Shines from its front only: glTF's doubleSided is false, as Backface Culling says."""
+    material = lambert(name, (0.0, 0.0, 0.0))
+    shader = material.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Emission"].default_value = (*color, 1.0)
+    shader.inputs["Emission Strength"].default_value = strength
+    material.use_backface_culling = True
+    return material
+
+
+def use_texture(material, image):
+    """Takes the base colour from an image."""
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+
+
+# ---- export --------------------------------------------------------------------------------
+
+
+def export_glb(path):
+    """Writes the scene, then corrects what Blender 3.4 cannot say."""
+    bpy.ops.export_scene.gltf(
+        filepath=path,
+        export_format="GLB",
+        export_cameras=True,
+        export_lights=True,
+        export_animations=False,
+        export_apply=True,
+        export_texcoords=any(mesh.uv_layers for mesh in bpy.data.meshes),
+    )
+    names = {material.name for material in bpy.data.materials if material.get("lambert")}
+    edit_glb(path, lambda gltf: make_lambert(gltf, names))
+
+
+def make_lambert(gltf, names):
+    """Takes the specular lobe from the named materials.
+
+    Blender 3.4 writes Principled's "Specular 0" as specularColorFactor 0, which by
+    KHR_materials_specular only takes F0 to 0: F90 stays 1 and the wall mirrors at grazing
+    angles, which Cycles does not show. specularFactor 0 takes both away.
+    """
+    for material in gltf["materials"]:
+        if material["name"] in names:
+            extensions = material.setdefault("extensions", {})
+            extensions["KHR_materials_specular"] = {"specularFactor": 0}
+            if "KHR_materials_specular" not in gltf.setdefault("extensionsUsed", []):
+                gltf["extensionsUsed"].append("KHR_materials_specular")
+
+
+def edit_glb(path, edit):
+    """Rewrites the JSON chunk of a binary glTF after edit(json) has changed it."""
+    with open(path, "rb") as file:
+        data = file.read()
+    json_size = struct.unpack_from("<I", data, 12)[0]
+    gltf = json.loads(data[20 : 20 + json_size])
+    edit(gltf)
+    text = json.dumps(gltf, separators=(",", ":")).encode("utf-8")
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + json_size :]
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, 20 + len(text) + len(rest)))
+        file.write(struct.pack("<I4s", len(text), b"JSON"))
+        file.write(text)
+        file.write(rest)
+
+
+# ---- Cycles reference ----------------------------------------------------------------------
+
+
+def render_cycles(path, samples, threads=1):
+    """A scene-linear EXR by Cycles' path tracer, set for comparison rather than for beauty."""
+    for material in bpy.data.materials:
+        if material.get("lambert"):
+            use_diffuse_node(material)
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.render.threads_mode = "FIXED"
+    scene.render.threads = threads
+    scene.render.filepath = path
+    image = scene.render.image_settings
+    image.file_format, image.color_depth, image.color_mode = "OPEN_EXR", "32", "RGB"
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.samples = samples
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.pixel_filter_type = "BOX"
+    cycles.filter_width = 1.0
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    cycles.blur_glossy = 0.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    for limit in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
+        setattr(cycles, limit + "_bounces", 32)
+    bpy.ops.render.render(write_still=True)
+
+
+def use_diffuse_node(material):
+    """Replaces Principled by a Diffuse BSDF (and Emission, front only, if it shines).
+
+    Principled's diffuse lobe is Disney's in Blender 3.x, up to 40 % brighter than Lambert in
+    the corners of a closed box, so it must not be what a Lambert wall is compared with.
+    """
+    tree = material.node_tree
+    old = tree.nodes["Principled BSDF"]
+    strength = old.inputs["Emission Strength"].default_value
+    emission = [strength * c for c in old.inputs["Emission"].default_value[:3]]
+    if max(emission) > 0.0:
+        new = tree.nodes.new("ShaderNodeEmission")
+        front = tree.nodes.new("ShaderNodeMath")
+        front.operation = "SUBTRACT"
+        front.inputs[0].default_value = 1.0
+        geometry = tree.nodes.new("ShaderNodeNewGeometry")
+        tree.links.new(geometry.outputs["Backfacing"], front.inputs[1])
+        tree.links.new(front.outputs[0], new.inputs["Strength"])
+        new.inputs["Color"].default_value = (*emission, 1.0)
+    else:
+        new = tree.nodes.new("ShaderNodeBsdfDiffuse")
+        color = old.inputs["Base Color"]
+        new.inputs["Color"].default_value = color.default_value
+        if color.is_linked:
+            tree.links.new(color.links[0].from_socket, new.inputs["Color"])
+    output = tree.nodes["Material Output"]
+    tree.links.new(new.outputs[0], output.inputs["Surface"])
+
+
+# ---- the script's end ----------------------------------------------------------------------
+
+
+def finish(script):
+    """Exports SCRIPT.glb beside the script; after `-- --reference OUT.exr SAMPLES` renders too."""
+    export_glb(os.path.splitext(os.path.abspath(script))[0] + ".glb")
+    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    if not arguments:
+        return
+    if len(arguments) != 3 or arguments[0] != "--reference" or not arguments[2].isdigit():
+        sys.exit("usage, after Blender's options: -- --reference OUT.exr SAMPLES")
+    render_cycles(os.path.abspath(arguments[1]), int(arguments[2]))

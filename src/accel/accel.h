@@ -1,0 +1,40 @@
+/* Ray tracing: one Embree scene per mesh, instanced. The only folder that sees Embree. */
+#ifndef PPMI_ACCEL_H
+#define PPMI_ACCEL_H
+
+#include <stdint.h>
+
+#include "base/context.h"
+#include "math/vec.h"
+#include "ppm/scene.h"
+
+typedef struct ppmi_accel ppmi_accel;
+
+typedef struct ppmi_ray {
+    ppmi_vec3 origin;
+    float t_max; /* in lengths of direction; INFINITY is fine */
+    ppmi_vec3 direction;
+} ppmi_ray;
+
+typedef struct ppmi_hit {
+    uint32_t instance, primitive, triangle; /* indices into scene, its mesh, its triangles */
+    float u, v;                             /* weights of the triangle's second and third vertex */
+    float t;
+} ppmi_hit;
+
+/* Builds all acceleration structures of a frozen scene, which must outlive the result. The build
+ * uses Embree's own threads; what it gives does not depend on the threads of a render.
+ * Returns OK, OUT_OF_MEMORY, INTERNAL. */
+ppm_status ppmi_accel_create(ppm_context *context, const ppm_scene *scene, ppmi_accel **out_accel);
+void ppmi_accel_destroy(ppmi_accel *accel);
+
+/* The closest hit in (0, t_max); false when there is none. Any thread. */
+bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit);
+
+/* Whether anything is in (0, t_max). Any thread. */
+bool ppmi_accel_occluded(const ppmi_accel *accel, const ppmi_ray *ray);
+
+/* "Embree 3.13.5": the version compiled against. Static. */
+const char *ppmi_accel_version(void);
+
+#endif

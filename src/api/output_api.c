@@ -1,0 +1,137 @@
+/* Pictures of a session as files: scene-linear OpenEXR, or a display's code values. */
+#include "ppm/output.h"
+
+#include <math.h>
+
+#include "api/output_header.h"
+#include "base/context.h"
+#include "color/color.h"
+#include "imageio/format.h"
+#include "imageio/imageio.h"
+#include "render/render.h"
+
+ppm_status ppm_output_check(ppm_context *context, const char *path)
+{
+    if (!context || !path) return PPM_STATUS_INVALID_ARGUMENT;
+    return ppmi_imageio_check_output(context, path);
+}
+
+static ppm_status check_arguments(ppm_context *context, const ppm_color *color, const char *path,
+                                  const ppmi_output_format *format,
+                                  const ppm_output_options *options)
+{
+    if (!format) return ppmi_imageio_check_output(context, path); /* says which endings there are */
+    if (!color && !format->is_scene_linear) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "%s: a %s file needs a colour configuration", path, format->label);
+    }
+    if (options->size < sizeof *options) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "ppm_output_options.size is %u",
+                         options->size);
+    }
+    if (options->depth < PPM_DEPTH_DEFAULT || options->depth > PPM_DEPTH_FLOAT) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "ppm_output_options.depth is %d",
+                         options->depth);
+    }
+    if (!isfinite(options->exposure_ev)) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "ppm_output_options.exposure_ev is not finite");
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status write_scene_linear(ppm_context *context, const ppm_render *render,
+                                     const char *path, const ppm_output_options *options,
+                                     ppmi_image_file *file)
+{
+    ppm_render_stats stats = {.size = sizeof stats};
+    const ppm_status status = ppm_render_get_stats(render, &stats);
+    if (status != PPM_STATUS_OK) return status;
+    const ppm_render_options *const rendered = ppm_render_get_options(render);
+    const char *const camera = ppm_scene_camera_name(ppmi_render_scene(render), rendered->camera);
+    ppmi_output_header header;
+    ppmi_output_header_init(&header, rendered, &stats, camera, options->command);
+    file->attributes = header.attributes;
+    file->attribute_count = header.count;
+    if (options->depth == PPM_DEPTH_HALF) file->store = PPMI_STORE_HALF;
+    return ppmi_imageio_write_file(context, path, file);
+}
+
+/* Views are made for colours as they are, not for colours times alpha. Returns whether any pixel is
+ * not opaque. */
+static bool unpremultiply(float *rgba, size_t pixel_count)
+{
+    bool is_transparent = false;
+    for (size_t i = 0; i < pixel_count; i++) {
+        float *const pixel = rgba + 4 * i;
+        const float alpha = pixel[3];
+        if (alpha >= 1) continue;
+        is_transparent = true;
+        if (!(alpha > 0)) continue;
+        for (int c = 0; c < 3; c++)
+            pixel[c] /= alpha;
+    }
+    return is_transparent;
+}
+
+/* Packs RGBA to RGB in place. */
+static void drop_alpha(float *rgba, size_t pixel_count)
+{
+    for (size_t i = 0; i < pixel_count; i++) {
+        for (int c = 0; c < 3; c++)
+            rgba[3 * i + c] = rgba[4 * i + c];
+    }
+}
+
+static ppm_status write_display(ppm_context *context, const ppm_color *color, const char *path,
+                                const ppm_output_options *options, ppmi_image_file *file,
+                                float *rgba)
+{
+    const size_t pixel_count = (size_t)file->width * file->height;
+    const bool is_transparent = unpremultiply(rgba, pixel_count);
+    const ppm_status status = ppmi_color_to_display(context, color, options->display, options->view,
+                                                    options->exposure_ev, rgba, pixel_count);
+    if (status != PPM_STATUS_OK) return status;
+    if (!is_transparent) {
+        drop_alpha(rgba, pixel_count);
+        file->channels = 3;
+    }
+    ppmi_output_header header;
+    ppmi_output_header_init_display(&header);
+    file->attributes = header.attributes;
+    file->attribute_count = header.count;
+    return ppmi_imageio_write_file(context, path, file);
+}
+
+ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, const char *path,
+                            const ppm_output_options *options)
+{
+    static const ppm_output_options defaults = {.size = sizeof defaults};
+    if (!render || !path) return PPM_STATUS_INVALID_ARGUMENT;
+    if (!options) options = &defaults;
+    ppm_context *const context = ppmi_render_context(render);
+    const ppmi_output_format *const format = ppmi_imageio_format_of_output(path);
+    ppm_status status = check_arguments(context, color, path, format, options);
+    if (status != PPM_STATUS_OK) return status;
+
+    const ppm_render_options *const rendered = ppm_render_get_options(render);
+    const size_t value_count = (size_t)rendered->width * rendered->height * 4;
+    float *const rgba = ppmi_alloc(context, value_count, sizeof *rgba);
+    if (!rgba) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory for %u x %u pixels",
+                         path, rendered->width, rendered->height);
+    }
+    ppmi_image_file file = {.width = rendered->width,
+                            .height = rendered->height,
+                            .channels = 4,
+                            .pixels = rgba,
+                            .store = format->usual_store};
+    status = ppm_render_read_image(render, rgba, value_count);
+    if (status == PPM_STATUS_OK) {
+        status = format->is_scene_linear
+                     ? write_scene_linear(context, render, path, options, &file)
+                     : write_display(context, color, path, options, &file, rgba);
+    }
+    ppmi_free(context, rgba);
+    return status;
+}

@@ -1,0 +1,99 @@
+/* Picture headers.
+ *
+ * Nothing in them depends on the time, the machine or the number of threads: the same render writes
+ * the same bytes. Chromaticities say what the numbers mean (OpenEXR's standard attribute); programs
+ * that do not read them know the name of the space. */
+#include "api/output_header.h"
+
+#include <assert.h>
+#include <inttypes.h>
+#include <stdio.h>
+
+static ppmi_image_attribute *add(ppmi_output_header *header, const char *name, int32_t type)
+{
+    assert(header->count < PPMI_OUTPUT_ATTRIBUTES_MAX);
+    ppmi_image_attribute *const attribute = &header->attributes[header->count++];
+    *attribute = (ppmi_image_attribute){.name = name, .type = type};
+    return attribute;
+}
+
+static void add_text(ppmi_output_header *header, const char *name, const char *text)
+{
+    if (text && *text) add(header, name, PPMI_ATTRIBUTE_STRING)->text = text;
+}
+
+static void add_floats(ppmi_output_header *header, const char *name, const float *values,
+                       uint32_t count)
+{
+    const int32_t type = count == 1 ? PPMI_ATTRIBUTE_FLOAT : PPMI_ATTRIBUTE_FLOATS;
+    ppmi_image_attribute *const attribute = add(header, name, type);
+    attribute->floats = values;
+    attribute->float_count = count;
+}
+
+/* As text where it does not fit a signed number. */
+static void add_count(ppmi_output_header *header, const char *name, uint64_t value)
+{
+    if (value <= INT64_MAX) {
+        add(header, name, PPMI_ATTRIBUTE_INT)->integer = (int64_t)value;
+        return;
+    }
+    assert(header->text_count < PPMI_OUTPUT_COUNTS_MAX);
+    char *const text = header->counts[header->text_count++];
+    snprintf(text, sizeof header->counts[0], "%" PRIu64, value);
+    add_text(header, name, text);
+}
+
+static const char *integrator_name(int32_t integrator)
+{
+    switch (integrator) {
+    case PPM_INTEGRATOR_SPPM:
+        return "sppm";
+    case PPM_INTEGRATOR_PATH:
+        return "path";
+    }
+    return "unknown";
+}
+
+/* All options that shape the picture; the number of threads does not. */
+static void write_options(char *text, size_t size, const ppm_render_options *options)
+{
+    snprintf(text, size,
+             "integrator=%s width=%" PRIu32 " height=%" PRIu32 " photons_per_pass=%" PRIu64
+             " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64 " camera=%" PRIu32,
+             integrator_name(options->integrator), options->width, options->height,
+             options->photons_per_pass, options->max_depth, (double)options->radius_m,
+             (double)options->alpha, options->seed, options->camera);
+}
+
+void ppmi_output_header_init_display(ppmi_output_header *header)
+{
+    *header = (ppmi_output_header){0};
+    snprintf(header->software, sizeof header->software, "ppm-render %s", ppm_version());
+    add_text(header, "Software", header->software);
+}
+
+void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
+                             const ppm_render_stats *stats, const char *camera, const char *command)
+{
+    /* ITU-R BT.709: red, green, blue, white (D65) */
+    static const float chromaticities[8] = {0.64f, 0.33f, 0.30f,   0.60f,
+                                            0.15f, 0.06f, 0.3127f, 0.3290f};
+    static const float square[1] = {1};
+    ppmi_output_header_init_display(header);
+    write_options(header->options, sizeof header->options, options);
+    add_floats(header, "chromaticities", chromaticities, 8);
+    /* OpenImageIO keeps its own attribute for itself: 2.4 calls every OpenEXR file it reads
+     * "Linear". The second name is the one that is stored (ASWF Color Interop Forum). */
+    add_text(header, "oiio:ColorSpace", "lin_rec709");
+    add_text(header, "colorInteropID", "lin_rec709_scene");
+    add_floats(header, "PixelAspectRatio", square, 1);
+    add_text(header, "ppm:version", ppm_version());
+    add_text(header, "ppm:options", header->options);
+    add_text(header, "ppm:integrator", integrator_name(options->integrator));
+    add_count(header, "ppm:passes", stats->passes);
+    add_count(header, "ppm:photons", stats->photons_emitted);
+    add_count(header, "ppm:seed", options->seed);
+    add_text(header, "ppm:camera", camera);
+    add_text(header, "ppm:command", command);
+}

@@ -1,0 +1,28 @@
+/* What the header of a scene-linear picture says about it. */
+#ifndef PPMI_API_OUTPUT_HEADER_H
+#define PPMI_API_OUTPUT_HEADER_H
+
+#include "imageio/imageio.h"
+#include "ppm/render.h"
+
+enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 20, PPMI_OUTPUT_COUNTS_MAX = 4 };
+
+/* Attributes, with the texts that they point to: must not be copied or moved. */
+typedef struct ppmi_output_header {
+    ppmi_image_attribute attributes[PPMI_OUTPUT_ATTRIBUTES_MAX];
+    uint32_t count;
+    char software[32];
+    char options[512];
+    char counts[PPMI_OUTPUT_COUNTS_MAX][24];
+    uint32_t text_count; /* of counts */
+} ppmi_output_header;
+
+/* camera and command may be NULL; they and options must outlive header. */
+void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
+                             const ppm_render_stats *stats, const char *camera,
+                             const char *command);
+
+/* The one line that files of other kinds carry. */
+void ppmi_output_header_init_display(ppmi_output_header *header);
+
+#endif

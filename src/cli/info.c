@@ -1,0 +1,57 @@
+/* Help, version, and the contents of a colour configuration. */
+#include "info.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+
+static int finish(void)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout)) return EXIT_DONE;
+    perror("ppm-render: error: standard output");
+    return EXIT_OUTPUT;
+}
+
+int info_print_help(void)
+{
+    cli_options_print_help(stdout);
+    return finish();
+}
+
+int info_print_version(void)
+{
+    printf("ppm-render %s\n%s\n", ppm_version(), ppm_build_info());
+    return finish();
+}
+
+static const char *mark(const char *name, const char *default_name)
+{
+    return default_name && strcmp(name, default_name) == 0 ? " (default)" : "";
+}
+
+static void print_display(const ppm_color *color, const char *display)
+{
+    printf("  %s%s\n", display, mark(display, ppm_color_default_display(color)));
+    const uint32_t count = ppm_color_view_count(color, display);
+    for (uint32_t i = 0; i < count; i++) {
+        const char *const view = ppm_color_view_name(color, display, i);
+        printf("    %s%s\n", view, mark(view, ppm_color_default_view(color, display)));
+    }
+}
+
+int info_print_views(const ppm_color *color)
+{
+    printf("Configuration: %s\n\nDisplays (--display) and their views (--view):\n",
+           ppm_color_source(color));
+    const uint32_t display_count = ppm_color_display_count(color);
+    for (uint32_t i = 0; i < display_count; i++) {
+        print_display(color, ppm_color_display_name(color, i));
+    }
+    printf("\nColour spaces:\n");
+    const uint32_t space_count = ppm_color_space_count(color);
+    for (uint32_t i = 0; i < space_count; i++) {
+        printf("  %s\n", ppm_color_space_name(color, i));
+    }
+    return finish();
+}

@@ -1,0 +1,415 @@
+/* One table describes every option; parsing, checking, help and suggestions all come from it.
+ *
+ * getopt_long does the splitting. Its habit of taking any unambiguous beginning of a name is
+ * refused: a script that relies on "--exp" would break on the day that a second such name comes. */
+#include "options.h"
+
+#include <getopt.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/suggest.h"
+#include "ppm/ppm.h"
+#include "values.h"
+
+enum { DEFAULT_PASSES = 256 };
+
+typedef enum value_kind {
+    VALUE_SET,     /* no argument: stores .set in an int32_t */
+    VALUE_TEXT,    /* const char * */
+    VALUE_OUTPUT,  /* one more of the cli_outputs */
+    VALUE_INTEGER, /* uint64_t */
+    VALUE_COUNT,   /* uint64_t, with k, M, G */
+    VALUE_REAL,    /* double */
+    VALUE_SIZE,    /* image_size */
+    VALUE_CHOICE   /* int32_t, from a list of names */
+} value_kind;
+
+typedef struct choice {
+    const char *name; /* NULL ends a list */
+    int32_t value;
+} choice;
+
+typedef struct option_row {
+    const char *name;
+    char letter; /* 0: none */
+    value_kind kind;
+    size_t field; /* offset in cli_options */
+    int32_t set;
+    uint64_t least, most;  /* INTEGER, COUNT, SIZE (each side) */
+    double low, high;      /* REAL */
+    const choice *choices; /* CHOICE */
+    const char *argument;  /* as the help shows it */
+    const char *help;      /* lines separated by \n */
+    const char *group;     /* a heading, where a group begins */
+} option_row;
+
+static const choice integrators[] = {
+    {"sppm", PPM_INTEGRATOR_SPPM}, {"path", PPM_INTEGRATOR_PATH}, {NULL, 0}};
+static const choice light_units[] = {{"auto", PPM_LIGHT_UNITS_AUTO},
+                                     {"gltf", PPM_LIGHT_UNITS_GLTF},
+                                     {"blender", PPM_LIGHT_UNITS_BLENDER},
+                                     {"raw", PPM_LIGHT_UNITS_RAW},
+                                     {NULL, 0}};
+static const choice transmissions[] = {{"auto", PPM_TRANSMISSION_POLICY_AUTO},
+                                       {"solid", PPM_TRANSMISSION_POLICY_SOLID},
+                                       {"thin", PPM_TRANSMISSION_POLICY_THIN},
+                                       {NULL, 0}};
+
+#define FIELD(member) .field = offsetof(cli_options, member)
+static const option_row rows[] = {
+    {"output", 'o', VALUE_OUTPUT, .argument = "FILE", .group = "Pictures",
+     .help = "write the picture to FILE; may be repeated. The ending says the\n"
+             "kind: .exr is scene-linear; .png .jpg .tif are for display\n"
+             "(default: INPUT's name as .exr and .png in the current folder)"},
+    {"size", 's', VALUE_SIZE, FIELD(size), .least = 1, .most = 65536, .argument = "WxH",
+     .help = "pixels (default: 1280 wide, height from the camera's aspect)"},
+    {"stats", 0, VALUE_TEXT, FIELD(stats), .argument = "FILE.json",
+     .help = "write counts and timings to FILE.json at the end"},
+
+    {"passes", 'n', VALUE_COUNT, FIELD(passes), .least = 1, .most = 1000000000, .argument = "N",
+     .group = "When to stop", .help = "after N passes (default: 256; with --time no limit)"},
+    {"time", 't', VALUE_REAL, FIELD(seconds), .low = 1e-9, .high = 1e9, .argument = "SECONDS",
+     .help = "after that much rendering, at the nearest end of a pass\n"
+             "(default: no limit)"},
+
+    {"integrator", 'i', VALUE_CHOICE, FIELD(integrator), .choices = integrators, .argument = "NAME",
+     .group = "Light transport",
+     .help = "sppm: stochastic progressive photon mapping (default)\n"
+             "path: unidirectional path tracer, to compare with"},
+    {"photons", 'p', VALUE_COUNT, FIELD(photons), .least = 1, .most = UINT64_C(1) << 40,
+     .argument = "N",
+     .help = "photons per pass; k and M stand for 1024 and 1024^2\n"
+             "(default: 256k, or the number of pixels if that is more)"},
+    {"radius", 0, VALUE_REAL, FIELD(radius_m), .low = 1e-9, .high = 1e9, .argument = "R",
+     .help = "first gather radius in metres (default: a few pixels wide)"},
+    {"alpha", 0, VALUE_REAL, FIELD(alpha), .low = 1e-6, .high = 1.0, .argument = "A",
+     .help = "share of new photons that is kept, above 0, up to 1; less\n"
+             "shrinks the radius faster (default: 2/3)"},
+    {"max-depth", 0, VALUE_INTEGER, FIELD(max_depth), .least = 1, .most = 10000, .argument = "N",
+     .help = "bounces of a path (default: 32)"},
+    {"seed", 0, VALUE_INTEGER, FIELD(seed), .most = INT64_MAX, .argument = "N",
+     .help = "other random numbers (default: 0)"},
+    {"threads", 0, VALUE_INTEGER, FIELD(threads), .least = 1, .most = 4096, .argument = "N",
+     .help = "does not change the picture (default: all processors)"},
+
+    {"camera", 0, VALUE_TEXT, FIELD(camera), .argument = "NAME|N", .group = "Scene",
+     .help = "by name, or by number from 1 (default: the first; a file\n"
+             "without a camera is shown whole)"},
+    {"env", 0, VALUE_TEXT, FIELD(environment), .argument = "FILE",
+     .help = "light from a latitude-longitude picture, besides INPUT's lights"},
+    {"light-units", 0, VALUE_CHOICE, FIELD(light_units), .choices = light_units, .argument = "HOW",
+     .help = "how lamps are read: auto, gltf, blender, raw (default: auto)"},
+    {"transmission", 0, VALUE_CHOICE, FIELD(transmission), .choices = transmissions,
+     .argument = "HOW", .help = "glass without a thickness: auto, solid, thin (default: auto)"},
+
+    {"exposure", 0, VALUE_REAL, FIELD(exposure_ev), .low = -64, .high = 64, .argument = "EV",
+     .group = "Colour of .png .jpg .tif", .help = "stops; 1 is twice as bright (default: 0)"},
+    {"display", 0, VALUE_TEXT, FIELD(display), .argument = "NAME",
+     .help = "of the OpenColorIO configuration (default: its default)"},
+    {"view", 0, VALUE_TEXT, FIELD(view), .argument = "NAME",
+     .help = "of the display (default: its default)"},
+    {"ocio", 0, VALUE_TEXT, FIELD(ocio), .argument = "FILE",
+     .help = "an OpenColorIO configuration (default: the one that $OCIO\n"
+             "names, else one that is built in)"},
+    {"list-views", 0, VALUE_SET, FIELD(action), .set = ACTION_LIST_VIEWS,
+     .help = "show displays, views and colour spaces, and end"},
+
+    {"quiet", 'q', VALUE_SET, FIELD(verbosity), .set = VERBOSITY_QUIET, .group = "Messages",
+     .help = "errors only"},
+    {"verbose", 'v', VALUE_SET, FIELD(verbosity), .set = VERBOSITY_VERBOSE,
+     .help = "details and timings too"},
+    {"version", 0, VALUE_SET, FIELD(action), .set = ACTION_VERSION,
+     .help = "show version and build, and end"},
+    {"help", 'h', VALUE_SET, FIELD(action), .set = ACTION_HELP, .help = "show this, and end"},
+};
+#undef FIELD
+enum { ROW_COUNT = sizeof rows / sizeof rows[0], FIRST_LONG = 256 };
+
+/* ---- help ------------------------------------------------------------------------------------ */
+
+static void print_row(FILE *stream, const option_row *row)
+{
+    enum { HELP_COLUMN = 27 };
+    char letter[5] = "    ";
+    if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
+    int column = fprintf(stream, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "",
+                         row->argument ? row->argument : "");
+    for (const char *line = row->help; line;) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(stream, "%*s%.*s\n", column < HELP_COLUMN ? HELP_COLUMN - column : 1, "",
+                (int)length, line);
+        line = line[length] ? line + length + 1 : NULL;
+        column = 0;
+    }
+}
+
+void cli_options_print_help(FILE *stream)
+{
+    fputs("Usage: ppm-render [options] INPUT.{gltf,glb}\n"
+          "Renders a glTF scene by progressive photon mapping.\n",
+          stream);
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (rows[i].group) fprintf(stream, "\n%s:\n", rows[i].group);
+        print_row(stream, &rows[i]);
+    }
+    fputs("\nExample: ten minutes for a picture of 1920x1080 pixels, two stops brighter\n"
+          "  ppm-render -s 1920x1080 -t 600 --exposure 2 -o hall.exr -o hall.png hall.glb\n"
+          "\nExit status: 0 done (also when stopped by SIGINT or SIGTERM), 1 wrong usage,\n"
+          "2 input not usable, 3 output not writable, 4 out of resources.\n",
+          stream);
+}
+
+/* ---- complaints ------------------------------------------------------------------------------ */
+
+static int give_hint(void)
+{
+    fputs("Try 'ppm-render --help'.\n", stderr);
+    return EXIT_USAGE;
+}
+
+/* expected completes "'value' is not ..." */
+static int complain(const option_row *row, const char *value, const char *expected)
+{
+    fprintf(stderr, "ppm-render: error: --%s: '%s' is not %s\n", row->name, value, expected);
+    return give_hint();
+}
+
+static int unknown_long(const char *argument)
+{
+    const char *names[ROW_COUNT];
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        names[i] = rows[i].name;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(argument + 2, "="), argument + 2);
+    const char *const nearest = ppmi_suggest(name, names, ROW_COUNT);
+    fprintf(stderr, "ppm-render: error: unknown option '--%s'", name);
+    if (nearest) fprintf(stderr, "; did you mean '--%s'?", nearest);
+    fputc('\n', stderr);
+    return give_hint();
+}
+
+static int unknown_letter(int letter)
+{
+    fprintf(stderr, "ppm-render: error: unknown option '-%c'", letter);
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        const int other_case = letter ^ ('a' ^ 'A');
+        if (rows[i].letter && rows[i].letter == other_case) {
+            fprintf(stderr, "; did you mean '-%c' (--%s)?", other_case, rows[i].name);
+        }
+    }
+    fputc('\n', stderr);
+    return give_hint();
+}
+
+/* ---- values ---------------------------------------------------------------------------------- */
+
+static int store_integer(const option_row *row, const char *text, uint64_t *field)
+{
+    uint64_t value = 0;
+    const bool is_number = row->kind == VALUE_COUNT ? value_parse_count(text, &value)
+                                                    : value_parse_integer(text, &value);
+    if (!is_number || value < row->least || value > row->most) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "a whole number from %llu to %llu",
+                 (unsigned long long)row->least, (unsigned long long)row->most);
+        return complain(row, text, expected);
+    }
+    *field = value;
+    return EXIT_DONE;
+}
+
+static int store_real(const option_row *row, const char *text, double *field)
+{
+    double value = 0.0;
+    const bool is_number = value_parse_real(text, &value);
+    if (!is_number || value < row->low || value > row->high) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "a number from %g to %g", row->low, row->high);
+        return complain(row, text, expected);
+    }
+    *field = value;
+    return EXIT_DONE;
+}
+
+static int store_size(const option_row *row, const char *text, image_size *field)
+{
+    image_size size = {0, 0};
+    if (!value_parse_size(text, &size.width, &size.height)) {
+        return complain(row, text, "a size like 1280x720");
+    }
+    if (size.width < row->least || size.width > row->most || size.height < row->least ||
+        size.height > row->most) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "a size whose sides are from %llu to %llu",
+                 (unsigned long long)row->least, (unsigned long long)row->most);
+        return complain(row, text, expected);
+    }
+    *field = size;
+    return EXIT_DONE;
+}
+
+static int store_choice(const option_row *row, const char *text, int32_t *field)
+{
+    enum { CHOICES_MAX = 16 };
+    const char *names[CHOICES_MAX];
+    size_t count = 0;
+    for (const choice *each = row->choices; each->name && count < CHOICES_MAX; each++) {
+        if (strcmp(each->name, text) == 0) {
+            *field = each->value;
+            return EXIT_DONE;
+        }
+        names[count++] = each->name;
+    }
+    const char *const nearest = ppmi_suggest(text, names, count);
+    fprintf(stderr, "ppm-render: error: --%s: '%s' is not one of", row->name, text);
+    for (size_t i = 0; i < count; i++)
+        fprintf(stderr, "%s %s", i ? "," : "", names[i]);
+    if (nearest) fprintf(stderr, "; did you mean '%s'?", nearest);
+    fputc('\n', stderr);
+    return give_hint();
+}
+
+/* outputs has room for one entry per word of argv, so appending never allocates. */
+static int store(const option_row *row, const char *text, cli_options *options)
+{
+    void *const field = (char *)options + row->field;
+    if (text && *text == '\0') return complain(row, text, "a value");
+    switch (row->kind) {
+    case VALUE_SET:
+        *(int32_t *)field = row->set;
+        return EXIT_DONE;
+    case VALUE_TEXT:
+        *(const char **)field = text;
+        return EXIT_DONE;
+    case VALUE_OUTPUT:
+        options->outputs[options->output_count++] = text;
+        return EXIT_DONE;
+    case VALUE_INTEGER:
+    case VALUE_COUNT:
+        return store_integer(row, text, field);
+    case VALUE_REAL:
+        return store_real(row, text, field);
+    case VALUE_SIZE:
+        return store_size(row, text, field);
+    case VALUE_CHOICE:
+        return store_choice(row, text, field);
+    }
+    return EXIT_USAGE;
+}
+
+/* ---- parsing --------------------------------------------------------------------------------- */
+
+/* Room for ':' in front, and a letter and a colon for each row. */
+typedef struct getopt_tables {
+    char letters[2 * ROW_COUNT + 2];
+    struct option names[ROW_COUNT + 1];
+} getopt_tables;
+
+/* Long options answer with FIRST_LONG + row, so that the row is at hand. */
+static void fill_tables(getopt_tables *tables)
+{
+    memset(tables, 0, sizeof *tables);
+    char *letter = tables->letters;
+    *letter++ = ':'; /* a missing argument answers ':' instead of '?' */
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        const bool has_argument = rows[i].kind != VALUE_SET;
+        tables->names[i].name = rows[i].name;
+        tables->names[i].has_arg = has_argument ? required_argument : no_argument;
+        tables->names[i].val = FIRST_LONG + (int)i;
+        if (!rows[i].letter) continue;
+        *letter++ = rows[i].letter;
+        if (has_argument) *letter++ = ':';
+    }
+}
+
+static const option_row *find_row(int answer)
+{
+    if (answer >= FIRST_LONG) return &rows[answer - FIRST_LONG];
+    for (size_t i = 0; i < ROW_COUNT; i++) {
+        if (rows[i].letter && rows[i].letter == answer) return &rows[i];
+    }
+    return NULL;
+}
+
+/* What getopt_long could not take; word is the argument that it stands at. */
+static int refuse(int answer, const char *word)
+{
+    const option_row *const row = find_row(optopt);
+    if (answer == ':' && row) {
+        fprintf(stderr, "ppm-render: error: --%s needs a value: %s\n", row->name, row->argument);
+        return give_hint();
+    }
+    if (row && optopt >= FIRST_LONG) {
+        fprintf(stderr, "ppm-render: error: --%s takes no value\n", row->name);
+        return give_hint();
+    }
+    return optopt ? unknown_letter(optopt) : unknown_long(word);
+}
+
+/* The word that the long option just read stands in: the one before its value if that is a word
+ * of its own. */
+static const char *long_option_word(char **argv)
+{
+    return optarg && optarg == argv[optind - 1] ? argv[optind - 2] : argv[optind - 1];
+}
+
+static bool is_abbreviated(const char *word, const option_row *row)
+{
+    const size_t length = strcspn(word + 2, "=");
+    return length != strlen(row->name);
+}
+
+static int parse_words(int argc, char **argv, cli_options *options)
+{
+    getopt_tables tables;
+    fill_tables(&tables);
+    opterr = 0;
+    for (;;) {
+        const int answer = getopt_long(argc, argv, tables.letters, tables.names, NULL);
+        if (answer == -1) return EXIT_DONE;
+        if (answer == '?' || answer == ':') return refuse(answer, argv[optind - 1]);
+        const option_row *const row = find_row(answer);
+        if (answer >= FIRST_LONG) {
+            const char *const word = long_option_word(argv);
+            if (is_abbreviated(word, row)) return unknown_long(word);
+        }
+        const int status = store(row, optarg, options);
+        if (status != EXIT_DONE) return status;
+        /* "ppm-render --help --size oops" is a call for help */
+        if (options->action == ACTION_HELP || options->action == ACTION_VERSION) return EXIT_DONE;
+    }
+}
+
+int cli_options_parse(int argc, char **argv, cli_options *out_options)
+{
+    memset(out_options, 0, sizeof *out_options);
+    out_options->outputs = calloc((size_t)argc + 1, sizeof *out_options->outputs);
+    if (!out_options->outputs) {
+        fputs("ppm-render: error: out of memory\n", stderr);
+        return EXIT_RESOURCES;
+    }
+    const int status = parse_words(argc, argv, out_options);
+    if (status != EXIT_DONE || out_options->action != ACTION_RENDER) return status;
+    if (optind == argc) {
+        fputs("ppm-render: error: no INPUT file\n", stderr);
+        return give_hint();
+    }
+    if (optind + 1 < argc) {
+        fprintf(stderr, "ppm-render: error: one INPUT at a time; besides '%s' there is '%s'\n",
+                argv[optind], argv[optind + 1]);
+        return give_hint();
+    }
+    out_options->input = argv[optind];
+    if (out_options->passes == 0 && !(out_options->seconds > 0.0)) {
+        out_options->passes = DEFAULT_PASSES;
+    }
+    return EXIT_DONE;
+}
+
+void cli_options_deinit(cli_options *options)
+{
+    free(options->outputs);
+    options->outputs = NULL;
+}

@@ -1,0 +1,146 @@
+/* Paths, the schedule of refreshes, and the command line as one string. */
+#include "outputs.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clock.h"
+
+static const double REFRESH_FIRST_S = 2.0;
+static const double REFRESH_MIN_S = 5.0;
+static const double REFRESH_SHARE_OF_ELAPSED = 0.1;
+static const double REFRESH_COST_FACTOR = 20.0;
+
+/* The last part of a path without its ending: "scenes/hall.v2.glb" gives "hall.v2". */
+static char *stem_with_ending(const char *path, const char *ending)
+{
+    const char *const slash = strrchr(path, '/');
+    const char *const name = slash ? slash + 1 : path;
+    const char *const dot = strrchr(name, '.');
+    const size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+    char *const result = malloc(length + strlen(ending) + 1);
+    if (!result) return NULL;
+    memcpy(result, name, length);
+    strcpy(result + length, ending);
+    return result;
+}
+
+static bool add_paths(cli_outputs *outputs, const cli_options *options)
+{
+    static const char *const default_endings[] = {".exr", ".png"};
+    const size_t count = options->output_count ? options->output_count : 2;
+    outputs->paths = calloc(count, sizeof *outputs->paths);
+    if (!outputs->paths) return false;
+    for (; outputs->count < count; outputs->count++) {
+        char *const path = options->output_count
+                               ? strdup(options->outputs[outputs->count])
+                               : stem_with_ending(options->input, default_endings[outputs->count]);
+        if (!path) return false;
+        outputs->paths[outputs->count] = path;
+    }
+    return true;
+}
+
+static bool is_plain(const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "-_=+.,:/@%";
+    return *word != '\0' && word[strspn(word, plain)] == '\0';
+}
+
+/* Appends word as a shell would take it: in quotes unless it is plain. */
+static char *append_quoted(char *end, const char *word)
+{
+    if (is_plain(word)) return stpcpy(end, word);
+    *end++ = '\'';
+    for (; *word; word++) {
+        if (*word == '\'') {
+            end = stpcpy(end, "'\\''");
+        } else {
+            *end++ = *word;
+        }
+    }
+    *end++ = '\'';
+    *end = '\0';
+    return end;
+}
+
+static char *join_command(int argc, char **argv)
+{
+    size_t room = 1;
+    for (int i = 0; i < argc; i++)
+        room += 4 * strlen(argv[i]) + 3;
+    char *const command = malloc(room);
+    if (!command) return NULL;
+    char *end = stpcpy(command, "ppm-render");
+    for (int i = 1; i < argc; i++) {
+        *end++ = ' ';
+        end = append_quoted(end, argv[i]);
+    }
+    return command;
+}
+
+int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_color *color, int argc,
+                 char **argv)
+{
+    memset(outputs, 0, sizeof *outputs);
+    outputs->command = join_command(argc, argv);
+    outputs->color = color;
+    outputs->options = (ppm_output_options){
+        .size = sizeof outputs->options,
+        .exposure_ev = (float)options->exposure_ev,
+        .display = options->display,
+        .view = options->view,
+        .command = outputs->command,
+    };
+    if (outputs->command && add_paths(outputs, options)) return EXIT_DONE;
+    fputs("ppm-render: error: out of memory\n", stderr);
+    return EXIT_RESOURCES;
+}
+
+void outputs_deinit(cli_outputs *outputs)
+{
+    for (size_t i = 0; i < outputs->count; i++)
+        free(outputs->paths[i]);
+    free(outputs->paths);
+    free(outputs->command);
+}
+
+int outputs_check(const cli_outputs *outputs, ppm_context *context)
+{
+    for (size_t i = 0; i < outputs->count; i++) {
+        const ppm_status status = ppm_output_check(context, outputs->paths[i]);
+        if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_USAGE);
+    }
+    return EXIT_DONE;
+}
+
+int outputs_write(const cli_outputs *outputs, const ppm_render *render)
+{
+    int result = EXIT_DONE;
+    for (size_t i = 0; i < outputs->count; i++) {
+        const ppm_status status =
+            ppm_render_write(render, outputs->color, outputs->paths[i], &outputs->options);
+        if (result == EXIT_DONE) result = exit_status_of(status, EXIT_OUTPUT);
+    }
+    return result;
+}
+
+static bool refresh_is_due(const cli_outputs *outputs, double elapsed)
+{
+    if (outputs->seconds_refreshed <= 0.0) return elapsed >= REFRESH_FIRST_S;
+    const double wait = fmax(fmax(REFRESH_MIN_S, REFRESH_SHARE_OF_ELAPSED * elapsed),
+                             REFRESH_COST_FACTOR * outputs->refresh_cost_s);
+    return elapsed - outputs->seconds_refreshed >= wait;
+}
+
+void outputs_refresh(cli_outputs *outputs, const ppm_render *render, double elapsed)
+{
+    if (!refresh_is_due(outputs, elapsed)) return;
+    const double begin = clock_seconds();
+    outputs_write(outputs, render);
+    outputs->refresh_cost_s = clock_seconds() - begin;
+    outputs->seconds_refreshed = elapsed + outputs->refresh_cost_s;
+}

@@ -1,0 +1,38 @@
+/* The pictures that are asked for: checked before rendering, refreshed while it runs, written at
+ * its end. */
+#ifndef PPM_CLI_OUTPUTS_H
+#define PPM_CLI_OUTPUTS_H
+
+#include <stddef.h>
+
+#include "options.h"
+#include "ppm/ppm.h"
+
+typedef struct cli_outputs {
+    size_t count;
+    char **paths;
+    char *command; /* the command line, for the pictures' metadata */
+    ppm_output_options options;
+    const ppm_color *color;
+    double seconds_refreshed; /* elapsed at the end of the last refresh; 0: none */
+    double refresh_cost_s;    /* of the last refresh */
+} cli_outputs;
+
+/* The files of options, or INPUT's name as .exr and .png in the current folder. color and the
+ * strings of options must outlive the outputs. Returns EXIT_DONE or EXIT_RESOURCES; outputs_deinit
+ * is due in every case. */
+int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_color *color, int argc,
+                 char **argv);
+void outputs_deinit(cli_outputs *outputs);
+
+/* Whether each could be written. The library has said what is wrong. Returns an exit status. */
+int outputs_check(const cli_outputs *outputs, ppm_context *context);
+
+/* Writes each; goes on to the next when one fails. Returns an exit status. */
+int outputs_write(const cli_outputs *outputs, const ppm_render *render);
+
+/* Writes each if it is time to: at growing intervals, and never for more than a twentieth of the
+ * time. A failure is reported by the library, but is not final: the disk may have room later. */
+void outputs_refresh(cli_outputs *outputs, const ppm_render *render, double elapsed);
+
+#endif

@@ -1,0 +1,198 @@
+/* The JSON is built and written by jansson. */
+#include "stats_json.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+#include "options.h"
+
+/* ---- the file -------------------------------------------------------------------------------- */
+
+typedef struct new_file {
+    char *path; /* beside the name that it will get */
+    FILE *stream;
+} new_file;
+
+/* mkstemp makes files that only their owner may read; pictures and statistics are for others too,
+ * as far as the umask allows. */
+static void widen_mode(int descriptor)
+{
+    const mode_t mask = umask(0);
+    umask(mask);
+    if (fchmod(descriptor, 0666 & ~mask) != 0) errno = 0; /* the file is still usable */
+}
+
+static int new_file_open(new_file *file, const char *path)
+{
+    static const char suffix[] = ".XXXXXX.tmp";
+    file->path = malloc(strlen(path) + sizeof suffix);
+    if (!file->path) return ENOMEM;
+    strcpy(stpcpy(file->path, path), suffix);
+    const int descriptor = mkstemps(file->path, 4);
+    file->stream = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
+    if (file->stream) {
+        widen_mode(descriptor);
+        return 0;
+    }
+    const int error = errno;
+    if (descriptor >= 0) {
+        close(descriptor);
+        unlink(file->path);
+    }
+    free(file->path);
+    return error;
+}
+
+static void new_file_drop(new_file *file)
+{
+    fclose(file->stream);
+    unlink(file->path);
+    free(file->path);
+}
+
+/* Gives the complete file its name. Returns 0 or an errno. */
+static int new_file_publish(new_file *file, const char *path)
+{
+    int error = 0;
+    if (fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0) error = errno;
+    if (fclose(file->stream) != 0 && error == 0) error = errno;
+    if (error == 0 && rename(file->path, path) != 0) error = errno;
+    if (error != 0) unlink(file->path);
+    free(file->path);
+    return error;
+}
+
+static int report(cli_console *console, const char *path, int error)
+{
+    console_message(console, PPM_LOG_ERROR, "%s: cannot write: %s", path, strerror(error));
+    return error == ENOMEM ? EXIT_RESOURCES : EXIT_OUTPUT;
+}
+
+int stats_json_check(cli_console *console, const char *path)
+{
+    struct stat found;
+    if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) return report(console, path, EISDIR);
+    new_file file;
+    const int error = new_file_open(&file, path);
+    if (error != 0) return report(console, path, error);
+    new_file_drop(&file);
+    return EXIT_DONE;
+}
+
+/* ---- the contents ---------------------------------------------------------------------------- */
+
+static json_t *count_json(uint64_t count)
+{
+    return json_integer((json_int_t)count);
+}
+
+static double per_second(uint64_t count, double seconds)
+{
+    return seconds > 0.0 ? (double)count / seconds : 0.0;
+}
+
+static uint64_t peak_memory_bytes(void)
+{
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return (uint64_t)usage.ru_maxrss * 1024; /* Linux counts in KiB */
+}
+
+static json_t *scene_json(const ppm_scene *scene)
+{
+    ppm_scene_info info = {.size = sizeof info};
+    if (ppm_scene_get_info(scene, &info) != PPM_STATUS_OK) return NULL;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}",        //
+                     "triangles", count_json(info.triangles), //
+                     "instances", count_json(info.instances), //
+                     "meshes", count_json(info.meshes),       //
+                     "materials", count_json(info.materials), //
+                     "textures", count_json(info.textures),   //
+                     "lights", count_json(info.lights));
+}
+
+static const char *integrator_name(int32_t integrator)
+{
+    return integrator == PPM_INTEGRATOR_PATH ? "path" : "sppm";
+}
+
+/* The three parts keep each json_pack readable: settings, counts, times. */
+static json_t *settings_json(const ppm_render_options *options)
+{
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:f, s:o}",                     //
+                     "integrator", integrator_name(options->integrator),        //
+                     "width", count_json(options->width),                       //
+                     "height", count_json(options->height),                     //
+                     "photons_per_pass", count_json(options->photons_per_pass), //
+                     "max_depth", count_json(options->max_depth),               //
+                     "alpha", (double)options->alpha,                           //
+                     "seed", count_json(options->seed));
+}
+
+static json_t *counts_json(const ppm_render_stats *stats)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}",                      //
+                     "passes", count_json(stats->passes),                   //
+                     "photons_emitted", count_json(stats->photons_emitted), //
+                     "photons_stored", count_json(stats->photons_stored),   //
+                     "eye_paths", count_json(stats->eye_paths),             //
+                     "rays", count_json(stats->rays),                       //
+                     "threads", count_json(stats->threads));
+}
+
+static json_t *times_json(const ppm_render_stats *stats, const stats_times *times)
+{
+    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o}", //
+                     "seconds_total", times->total_s,                      //
+                     "seconds_import", times->import_s,                    //
+                     "seconds_build", stats->seconds_build,                //
+                     "seconds_render", stats->seconds_render,              //
+                     "seconds_eye", stats->seconds_eye,                    //
+                     "seconds_photons", stats->seconds_photons,            //
+                     "seconds_gather", stats->seconds_gather,              //
+                     "photons_per_second",
+                     per_second(stats->photons_emitted, stats->seconds_render),         //
+                     "rays_per_second", per_second(stats->rays, stats->seconds_render), //
+                     "peak_memory_bytes", count_json(peak_memory_bytes()));
+}
+
+static json_t *render_json(const ppm_render *render, const stats_times *times)
+{
+    ppm_render_stats stats = {.size = sizeof stats};
+    if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return NULL;
+    json_t *const result = settings_json(ppm_render_get_options(render));
+    if (!result) return NULL;
+    json_object_update_new(result, counts_json(&stats));
+    json_object_update_new(result, times_json(&stats, times));
+    return result;
+}
+
+int stats_json_write(cli_console *console, const char *path, const ppm_scene *scene,
+                     const ppm_render *render, const stats_times *times)
+{
+    json_t *const root = json_pack("{s:s, s:o, s:o}", "version", ppm_version(), "scene",
+                                   scene_json(scene), "render", render_json(render, times));
+    if (!root) return report(console, path, ENOMEM);
+    new_file file;
+    int error = new_file_open(&file, path);
+    if (error == 0) {
+        const size_t layout = JSON_INDENT(2) | JSON_REAL_PRECISION(9);
+        const bool is_written =
+            json_dumpf(root, file.stream, layout) == 0 && fputc('\n', file.stream) != EOF;
+        if (is_written) {
+            error = new_file_publish(&file, path);
+        } else {
+            error = errno ? errno : EIO;
+            new_file_drop(&file);
+        }
+    }
+    json_decref(root);
+    return error == 0 ? EXIT_DONE : report(console, path, error);
+}

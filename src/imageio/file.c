@@ -1,0 +1,206 @@
+/* Whole files. A replaced file is never seen half-written: the new one is complete and on the disk
+ * before it takes the name (rename in one folder is atomic, POSIX.1-2017). */
+#include "imageio/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static ppm_status read_all(ppm_context *context, int descriptor, const char *name, char *bytes,
+                           size_t byte_count)
+{
+    size_t done = 0;
+    while (done < byte_count) {
+        const ssize_t got = read(descriptor, bytes + done, byte_count - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) {
+            return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: cannot be read: %s", name,
+                             strerror(errno));
+        }
+        if (got == 0) {
+            return ppmi_fail(context, PPM_STATUS_INPUT_INVALID,
+                             "%s: the file became shorter while it was read", name);
+        }
+        done += (size_t)got;
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status read_opened(ppm_context *context, int descriptor, const char *name,
+                              void **out_bytes, size_t *out_byte_count)
+{
+    struct stat facts;
+    if (fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: not a regular file", name);
+    }
+    if (facts.st_size == 0) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: the file is empty", name);
+    }
+    const size_t byte_count = (size_t)facts.st_size;
+    char *const bytes = ppmi_alloc(context, byte_count, 1);
+    if (!bytes) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory for its %zu bytes", name,
+                         byte_count);
+    }
+    const ppm_status status = read_all(context, descriptor, name, bytes, byte_count);
+    if (status != PPM_STATUS_OK) {
+        ppmi_free(context, bytes);
+        return status;
+    }
+    *out_bytes = bytes;
+    *out_byte_count = byte_count;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_imageio_file_read(ppm_context *context, const char *path, const char *name,
+                                  void **out_bytes, size_t *out_byte_count)
+{
+    /* without O_NONBLOCK a pipe of that name would wait for a writer */
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_NOT_FOUND, "%s: cannot be opened: %s", name,
+                         strerror(errno));
+    }
+    const ppm_status status = read_opened(context, descriptor, name, out_bytes, out_byte_count);
+    close(descriptor);
+    return status;
+}
+
+/* ---- replacing ------------------------------------------------------------------------------- */
+
+/* A file that is being replaced. */
+typedef struct replacement {
+    char *target;    /* where it goes: the path with symbolic links followed */
+    char *temporary; /* beside target */
+    int descriptor;  /* of temporary */
+} replacement;
+
+static ppm_status fail_output(ppm_context *context, const char *path, const char *reason)
+{
+    return ppmi_fail(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, "%s: cannot be written: %s", path,
+                     reason);
+}
+
+/* path itself, or what it links to; *out_mode is that of an existing file. */
+static ppm_status find_target(ppm_context *context, const char *path, char **out_target,
+                              mode_t *out_mode)
+{
+    struct stat facts;
+    char *resolved = NULL;
+    if (stat(path, &facts) == 0) {
+        if (!S_ISREG(facts.st_mode)) return fail_output(context, path, "not a regular file");
+        *out_mode = facts.st_mode & 0777;
+        resolved = realpath(path, NULL);
+        if (!resolved) return fail_output(context, path, strerror(errno));
+    } else if (errno != ENOENT) {
+        return fail_output(context, path, strerror(errno));
+    }
+    *out_target = ppmi_string_copy(context, resolved ? resolved : path);
+    free(resolved);
+    if (*out_target) return PPM_STATUS_OK;
+    return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+}
+
+/* Creates a new file beside target. Its name begins with a dot and ends in .tmp: a file browser
+ * hides it and nobody takes it for a picture. */
+static ppm_status create_temporary(ppm_context *context, const char *path, replacement *file)
+{
+    enum { ATTEMPTS = 1000, NAME_PART = 100, SUFFIX_SIZE = 64 };
+    const char *const slash = strrchr(file->target, '/');
+    const int folder_length = slash ? (int)(slash + 1 - file->target) : 0;
+    const size_t size = (size_t)folder_length + NAME_PART + SUFFIX_SIZE;
+    file->temporary = ppmi_alloc(context, size, 1);
+    if (!file->temporary) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+    }
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        snprintf(file->temporary, size, "%.*s.%.*s.%ld.%d.tmp", folder_length, file->target,
+                 NAME_PART, file->target + folder_length, (long)getpid(), attempt);
+        file->descriptor = open(file->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file->descriptor >= 0) return PPM_STATUS_OK;
+        if (errno != EEXIST) break;
+    }
+    return fail_output(context, path, strerror(errno));
+}
+
+static ppm_status replacement_begin(ppm_context *context, const char *path, replacement *file)
+{
+    *file = (replacement){.descriptor = -1};
+    mode_t mode = 0;
+    ppm_status status = find_target(context, path, &file->target, &mode);
+    if (status == PPM_STATUS_OK) status = create_temporary(context, path, file);
+    /* a replaced file keeps its permissions; where the file system has none that is no failure */
+    if (status == PPM_STATUS_OK && mode != 0 && fchmod(file->descriptor, mode) != 0) errno = 0;
+    return status;
+}
+
+static ppm_status write_all(ppm_context *context, const char *path, int descriptor,
+                            const char *bytes, size_t byte_count)
+{
+    size_t done = 0;
+    while (done < byte_count) {
+        const ssize_t written = write(descriptor, bytes + done, byte_count - done);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return fail_output(context, path, strerror(errno));
+        if (written == 0) return fail_output(context, path, "the file takes no more data");
+        done += (size_t)written;
+    }
+    return PPM_STATUS_OK;
+}
+
+/* Flushes and closes; some file systems report a full disk only here. */
+static ppm_status finish_temporary(ppm_context *context, const char *path, replacement *file)
+{
+    /* EINVAL: the file system has nothing to flush */
+    const bool is_flushed = fsync(file->descriptor) == 0 || errno == EINVAL;
+    const int flush_error = errno;
+    const bool is_closed = close(file->descriptor) == 0;
+    file->descriptor = -1;
+    if (!is_flushed) return fail_output(context, path, strerror(flush_error));
+    if (!is_closed) return fail_output(context, path, strerror(errno));
+    return PPM_STATUS_OK;
+}
+
+/* Frees; the temporary file itself stays. */
+static void replacement_end(ppm_context *context, replacement *file)
+{
+    if (file->descriptor >= 0) close(file->descriptor);
+    ppmi_free(context, file->temporary);
+    ppmi_free(context, file->target);
+}
+
+ppm_status ppmi_imageio_file_replace(ppm_context *context, const char *path, const void *bytes,
+                                     size_t byte_count)
+{
+    replacement file;
+    ppm_status status = replacement_begin(context, path, &file);
+    if (status != PPM_STATUS_OK) goto end;
+    status = write_all(context, path, file.descriptor, bytes, byte_count);
+    if (status != PPM_STATUS_OK) goto remove;
+    status = finish_temporary(context, path, &file);
+    if (status != PPM_STATUS_OK) goto remove;
+    if (rename(file.temporary, file.target) == 0) goto end;
+    status = fail_output(context, path, strerror(errno));
+
+remove:
+    unlink(file.temporary);
+end:
+    replacement_end(context, &file);
+    return status;
+}
+
+ppm_status ppmi_imageio_file_check(ppm_context *context, const char *path)
+{
+    replacement file;
+    const ppm_status status = replacement_begin(context, path, &file);
+    if (status == PPM_STATUS_OK) unlink(file.temporary);
+    replacement_end(context, &file);
+    return status;
+}

@@ -1,0 +1,340 @@
+/* Images in and out: what is read, how large it may be, what alpha means and how values are
+ * rounded. Encoding and decoding itself is OpenImageIO's work (oiio_shim.cpp). */
+#include "imageio/imageio.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "imageio/file.h"
+#include "imageio/format.h"
+#include "imageio/oiio_shim.h"
+#include "imageio/png_check.h"
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+/* The number of channels to keep: the first four, and a fourth or second one only if it is alpha
+ * (an OpenEXR file may hold RGB and depth). */
+static int32_t channels_to_keep(const ppmi_oiio_info *info)
+{
+    if (info->channels >= 4) return info->alpha_channel == 3 ? 4 : 3;
+    if (info->channels == 3) return info->alpha_channel == 1 ? 2 : 3;
+    return info->channels == 2 && info->alpha_channel == 1 ? 2 : 1;
+}
+
+static ppm_status check_area(ppm_context *context, const char *name, int32_t width, int32_t height,
+                             int32_t channels)
+{
+    const int64_t values_max = INT64_C(1) << 30;
+    if (width <= 0 || height <= 0) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: an image of %d x %d pixels", name,
+                         width, height);
+    }
+    if ((int64_t)width * height > values_max / channels) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY,
+                         "%s: %d x %d pixels of %d channels are more than 2^30 values", name, width,
+                         height, channels);
+    }
+    return PPM_STATUS_OK;
+}
+
+/* A header may claim any size. Before memory is taken, it must be one that so few bytes can hold
+ * and that the renderer is ready to keep. */
+static ppm_status check_header(ppm_context *context, const char *name,
+                               const ppmi_image_format *format, size_t byte_count,
+                               const ppmi_oiio_info *info)
+{
+    if (info->is_deep) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED, "%s: deep images are not supported",
+                         name);
+    }
+    if (info->channels < 1) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: an image without channels", name);
+    }
+    const double pixels = (double)info->width * info->height;
+    if (format->pixels_per_byte_max > 0 &&
+        pixels > (double)format->pixels_per_byte_max * (double)byte_count) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID,
+                         "%s: claims %d x %d pixels, more than its %zu bytes can hold", name,
+                         info->width, info->height, byte_count);
+    }
+    const int32_t channels = channels_to_keep(info);
+    const ppm_status status = check_area(context, name, info->width, info->height, channels);
+    if (status != PPM_STATUS_OK) return status;
+    return check_area(context, name, info->full_width, info->full_height, channels);
+}
+
+/* Whether only a part of the picture is stored (OpenEXR's data window). Elsewhere offsets are
+ * hints for page layout. */
+static bool is_part(const ppmi_image_format *format, const ppmi_oiio_info *info)
+{
+    return strcmp(format->oiio, "openexr") == 0 &&
+           (info->x != info->full_x || info->y != info->full_y || info->width != info->full_width ||
+            info->height != info->full_height);
+}
+
+static int64_t larger(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+
+static int64_t smaller(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Copies the stored pixels to their place in the full picture; the rest is zero. */
+static void place_part(const ppmi_oiio_info *info, const uint8_t *part, size_t pixel_bytes,
+                       uint8_t *full)
+{
+    const int64_t shift_x = (int64_t)info->x - info->full_x;
+    const int64_t shift_y = (int64_t)info->y - info->full_y;
+    const int64_t begin = larger(0, shift_x);
+    const int64_t end = smaller(info->full_width, shift_x + info->width);
+    memset(full, 0, (size_t)info->full_width * (size_t)info->full_height * pixel_bytes);
+    if (end <= begin) return;
+    for (int64_t y = 0; y < info->height; y++) {
+        const int64_t full_y = y + shift_y;
+        if (full_y < 0 || full_y >= info->full_height) continue;
+        memcpy(full + (size_t)(full_y * info->full_width + begin) * pixel_bytes,
+               part + (size_t)(y * info->width + begin - shift_x) * pixel_bytes,
+               (size_t)(end - begin) * pixel_bytes);
+    }
+}
+
+static void unassociate_u8(uint8_t *pixels, size_t pixel_count, uint32_t channels)
+{
+    for (size_t i = 0; i < pixel_count; i++) {
+        uint8_t *const pixel = pixels + i * channels;
+        const uint32_t alpha = pixel[channels - 1];
+        if (alpha == 0 || alpha == 255) continue;
+        for (uint32_t c = 0; c + 1 < channels; c++) {
+            const uint32_t value = (pixel[c] * 255u + alpha / 2) / alpha;
+            pixel[c] = (uint8_t)(value < 255 ? value : 255);
+        }
+    }
+}
+
+static void unassociate_f32(float *pixels, size_t pixel_count, uint32_t channels)
+{
+    for (size_t i = 0; i < pixel_count; i++) {
+        float *const pixel = pixels + i * channels;
+        const float alpha = pixel[channels - 1];
+        if (!(alpha > 0) || alpha == 1) continue;
+        for (uint32_t c = 0; c + 1 < channels; c++)
+            pixel[c] /= alpha;
+    }
+}
+
+static void unassociate(ppmi_pixels *pixels)
+{
+    const size_t pixel_count = (size_t)pixels->width * pixels->height;
+    if (pixels->channels != 2 && pixels->channels != 4) return;
+    if (pixels->u8) unassociate_u8(pixels->u8, pixel_count, pixels->channels);
+    if (pixels->f32) unassociate_f32(pixels->f32, pixel_count, pixels->channels);
+}
+
+/* Decodes to a packed buffer of the full picture. */
+static ppm_status decode_samples(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
+                                 const ppmi_image_format *format, const ppmi_oiio_info *info,
+                                 void **out_samples)
+{
+    const int32_t channels = channels_to_keep(info);
+    const size_t pixel_bytes = (size_t)channels * (info->is_u8 ? 1 : sizeof(float));
+    void *stored = NULL, *full = NULL;
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    /* zeroed: what a decoder leaves out of a damaged file must not be old memory */
+    stored = ppmi_alloc_zeroed(context, (size_t)info->width * (size_t)info->height, pixel_bytes);
+    if (!stored) goto fail_memory;
+    status = ppmi_oiio_read(context, reader, name, channels, info->is_u8, stored);
+    if (status != PPM_STATUS_OK) goto fail;
+    if (!is_part(format, info)) {
+        *out_samples = stored;
+        return PPM_STATUS_OK;
+    }
+    status = PPM_STATUS_OUT_OF_MEMORY;
+    full = ppmi_alloc(context, (size_t)info->full_width * (size_t)info->full_height, pixel_bytes);
+    if (!full) goto fail_memory;
+    place_part(info, stored, pixel_bytes, full);
+    ppmi_free(context, stored);
+    *out_samples = full;
+    return PPM_STATUS_OK;
+
+fail_memory:
+    ppmi_fail(context, status, "%s: no memory for %d x %d pixels", name, info->full_width,
+              info->full_height);
+fail:
+    ppmi_free(context, stored);
+    return status;
+}
+
+static ppm_status decode(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
+                         const ppmi_image_format *format, size_t byte_count,
+                         const ppmi_oiio_info *info, ppmi_pixels *out_pixels)
+{
+    ppm_status status = check_header(context, name, format, byte_count, info);
+    if (status != PPM_STATUS_OK) return status;
+    void *samples = NULL;
+    status = decode_samples(context, reader, name, format, info, &samples);
+    if (status != PPM_STATUS_OK) return status;
+    const bool part = is_part(format, info);
+    *out_pixels = (ppmi_pixels){
+        .width = (uint32_t)(part ? info->full_width : info->width),
+        .height = (uint32_t)(part ? info->full_height : info->height),
+        .channels = (uint32_t)channels_to_keep(info),
+        .u8 = info->is_u8 ? samples : NULL,
+        .f32 = info->is_u8 ? NULL : samples,
+        .is_linear = info->is_float,
+    };
+    if (info->is_associated && !format->keeps_alpha_straight) unassociate(out_pixels);
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, size_t byte_count,
+                                    const char *name, ppmi_pixels *out_pixels)
+{
+    if (!bytes || byte_count == 0) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: no image data", name);
+    }
+    const ppmi_image_format *const format = ppmi_imageio_format_of_input(bytes, byte_count, name);
+    if (!format) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED, "%s: not a known image format",
+                         name);
+    }
+    if (!format->oiio) {
+        return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED, "%s: %s images are not supported",
+                         name, format->label);
+    }
+    ppm_status status = PPM_STATUS_OK;
+    if (strcmp(format->oiio, "png") == 0) {
+        status = ppmi_imageio_png_check(context, bytes, byte_count, name);
+    }
+    if (status != PPM_STATUS_OK) return status;
+    ppmi_oiio_reader *reader = NULL;
+    ppmi_oiio_info info;
+    status = ppmi_oiio_open(context, format->oiio, bytes, byte_count, name, &reader, &info);
+    if (status != PPM_STATUS_OK) return status;
+    status = decode(context, reader, name, format, byte_count, &info, out_pixels);
+    ppmi_oiio_close(reader);
+    return status;
+}
+
+ppm_status ppmi_imageio_read_file(ppm_context *context, const char *path, const char *name,
+                                  ppmi_pixels *out_pixels)
+{
+    void *bytes = NULL;
+    size_t byte_count = 0;
+    ppm_status status = ppmi_imageio_file_read(context, path, name, &bytes, &byte_count);
+    if (status != PPM_STATUS_OK) return status;
+    status = ppmi_imageio_read_memory(context, bytes, byte_count, name, out_pixels);
+    ppmi_free(context, bytes);
+    return status;
+}
+
+void ppmi_imageio_pixels_free(ppm_context *context, ppmi_pixels *pixels)
+{
+    if (!pixels) return;
+    ppmi_free(context, pixels->u8);
+    ppmi_free(context, pixels->f32);
+    *pixels = (ppmi_pixels){0};
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+/* 0..1 to 0..top, to the nearest; not-a-number becomes 0. */
+static uint32_t quantised(float value, float top)
+{
+    if (!(value > 0)) return 0;
+    return (uint32_t)((value < 1 ? value : 1) * top + 0.5f);
+}
+
+/* Half ends at 65504; what is brighter must not become infinite. */
+static float within_half(float value)
+{
+    const float half_max = 65504;
+    return isnan(value) ? value : fminf(fmaxf(value, -half_max), half_max);
+}
+
+static void store_value(void *samples, size_t index, int32_t store, float value)
+{
+    switch (store) {
+    case PPMI_STORE_U8:
+        ((uint8_t *)samples)[index] = (uint8_t)quantised(value, 255);
+        break;
+    case PPMI_STORE_U16:
+        ((uint16_t *)samples)[index] = (uint16_t)quantised(value, 65535);
+        break;
+    case PPMI_STORE_HALF:
+        ((float *)samples)[index] = within_half(value);
+        break;
+    default:
+        ((float *)samples)[index] = value;
+    }
+}
+
+/* The first channels of each pixel as the values that the file will hold. */
+static void *make_samples(ppm_context *context, const ppmi_image_file *file, uint32_t channels)
+{
+    const size_t pixel_count = (size_t)file->width * file->height;
+    const size_t sample_bytes = file->store == PPMI_STORE_U8    ? sizeof(uint8_t)
+                                : file->store == PPMI_STORE_U16 ? sizeof(uint16_t)
+                                                                : sizeof(float);
+    void *const samples = ppmi_alloc(context, pixel_count, channels * sample_bytes);
+    if (!samples) return NULL;
+    for (size_t i = 0; i < pixel_count; i++) {
+        for (uint32_t c = 0; c < channels; c++) {
+            store_value(samples, i * channels + c, file->store,
+                        file->pixels[i * file->channels + c]);
+        }
+    }
+    return samples;
+}
+
+static ppm_status find_format(ppm_context *context, const char *path,
+                              const ppmi_output_format **out_format)
+{
+    *out_format = ppmi_imageio_format_of_output(path);
+    if (*out_format) return PPM_STATUS_OK;
+    return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                     "%s: pictures can be written as .exr .png .jpg .jpeg .tif .tiff", path);
+}
+
+ppm_status ppmi_imageio_write_file(ppm_context *context, const char *path,
+                                   const ppmi_image_file *file)
+{
+    const ppmi_output_format *format = NULL;
+    ppm_status status = find_format(context, path, &format);
+    if (status != PPM_STATUS_OK) return status;
+    if ((format->stores & 1u << file->store) == 0) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "%s: %s cannot store such pixels",
+                         path, format->label);
+    }
+    ppmi_image_file stored = *file;
+    if (!format->has_alpha && stored.channels > 3) stored.channels = 3;
+    if (!format->has_alpha && stored.channels == 2) stored.channels = 1;
+    void *const samples = make_samples(context, file, stored.channels);
+    if (!samples) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+    }
+    void *bytes = NULL;
+    size_t byte_count = 0;
+    status = ppmi_oiio_encode(context, format->oiio, format->compression, path, &stored, samples,
+                              &bytes, &byte_count);
+    ppmi_free(context, samples);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_imageio_file_replace(context, path, bytes, byte_count);
+    }
+    ppmi_free(context, bytes);
+    return status;
+}
+
+ppm_status ppmi_imageio_check_output(ppm_context *context, const char *path)
+{
+    const ppmi_output_format *format = NULL;
+    const ppm_status status = find_format(context, path, &format);
+    return status == PPM_STATUS_OK ? ppmi_imageio_file_check(context, path) : status;
+}
+
+const char *ppmi_imageio_version(void)
+{
+    return ppmi_oiio_version();
+}

@@ -1,0 +1,58 @@
+/* OpenImageIO, as far as it is needed: encoded bytes to pixels and back. All choices (formats,
+ * limits, alpha, rounding) are made in imageio.c; no exception leaves the shim. */
+#ifndef PPMI_IMAGEIO_OIIO_SHIM_H
+#define PPMI_IMAGEIO_OIIO_SHIM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "imageio/imageio.h"
+
+#ifdef __cplusplus
+#define PPMI_NOEXCEPT noexcept
+extern "C" {
+#else
+#define PPMI_NOEXCEPT
+#endif
+
+typedef struct ppmi_oiio_reader ppmi_oiio_reader;
+
+/* What the header of an image says; nothing of it has been checked. */
+typedef struct ppmi_oiio_info {
+    int32_t x, y, width, height;                     /* the pixels that are stored */
+    int32_t full_x, full_y, full_width, full_height; /* the picture that they are a part of */
+    int32_t channels;
+    int32_t alpha_channel; /* or -1 */
+    bool is_u8;            /* samples of at most 8 bits */
+    bool is_float;         /* half or float samples */
+    bool is_associated;    /* colours come multiplied by alpha */
+    bool is_deep;          /* several samples in a pixel: cannot be read */
+} ppmi_oiio_info;
+
+/* Opens the image in bytes, which must outlive the reader, as the OpenImageIO format.
+ * Returns OK, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY. */
+ppm_status ppmi_oiio_open(ppm_context *context, const char *format, const void *bytes,
+                          size_t byte_count, const char *name, ppmi_oiio_reader **out_reader,
+                          ppmi_oiio_info *out_info) PPMI_NOEXCEPT;
+/* The first channels of all stored pixels, packed: uint8_t where as_u8, else float. */
+ppm_status ppmi_oiio_read(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
+                          int32_t channels, bool as_u8, void *out_pixels) PPMI_NOEXCEPT;
+void ppmi_oiio_close(ppmi_oiio_reader *reader) PPMI_NOEXCEPT;
+
+/* Encodes file, whose pixels member is not used: pixels are uint8_t for PPMI_STORE_U8, uint16_t
+ * for PPMI_STORE_U16, else float. compression may be NULL. *out_bytes is freed with ppmi_free.
+ * Returns OK, OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY. */
+ppm_status ppmi_oiio_encode(ppm_context *context, const char *format, const char *compression,
+                            const char *path, const ppmi_image_file *file, const void *pixels,
+                            void **out_bytes, size_t *out_byte_count) PPMI_NOEXCEPT;
+
+/* "OpenImageIO 2.4.7.1". Static. */
+const char *ppmi_oiio_version(void) PPMI_NOEXCEPT;
+
+#ifdef __cplusplus
+}
+#endif
+#undef PPMI_NOEXCEPT
+
+#endif

@@ -1,0 +1,53 @@
+/* Everything that shines: choice by power, light sampling at surfaces, emission of photons. */
+#ifndef PPMI_LIGHT_LIGHTS_H
+#define PPMI_LIGHT_LIGHTS_H
+
+#include "light/environment.h"
+#include "math/alias.h"
+#include "shading/surface.h"
+
+typedef struct ppmi_lights ppmi_lights;
+
+/* Tables over a frozen scene, which must outlive them. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_lights_create(ppm_context *context, const ppm_scene *scene,
+                              ppmi_lights **out_lights);
+void ppmi_lights_destroy(ppmi_lights *lights);
+
+/* Number of emitters: punctual lights, emissive triangles, 1 for an environment. */
+uint64_t ppmi_lights_count(const ppmi_lights *lights);
+
+/* Light that arrives at a point from one sampled emitter, before visibility. */
+typedef struct ppmi_light_sample {
+    ppmi_vec3 wi;       /* towards the light, unit */
+    float distance;     /* free way that must be clear; INFINITY for far lights */
+    ppmi_vec3 radiance; /* for delta lights: irradiance on a plane that faces them */
+    float pdf;          /* by solid angle, choice included; of the choice alone for delta lights */
+    bool is_delta;
+} ppmi_light_sample;
+
+/* Samples one light for a surface at position with shading normal n (on the side that receives).
+ * False when nothing arrives. */
+bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
+                        float u, float v, ppmi_light_sample *out_sample);
+
+/* Density with which ppmi_lights_sample, at a point from, draws the emissive surface (on it, at
+ * distance along wi) or the environment in direction wi. */
+float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
+                              const ppmi_surface *surface, ppmi_vec3 wi, float distance);
+float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi);
+
+/* Radiance of the environment from direction wi. */
+ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi);
+
+/* A photon as it leaves a light. power is that of all light through this one photon: divide by the
+ * number of photons of a pass. */
+typedef struct ppmi_emission {
+    ppmi_ray ray;
+    ppmi_vec3 power;
+} ppmi_emission;
+
+/* u: four numbers, stratified where possible. False for a photon that carries nothing. */
+bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
+                      ppmi_emission *out_emission);
+
+#endif

@@ -1,0 +1,38 @@
+/* The photon pass: photons from the lights through the scene. */
+#ifndef PPMI_PHOTON_WALK_H
+#define PPMI_PHOTON_WALK_H
+
+#include <stdatomic.h>
+
+#include "photon/photon.h"
+#include "transport/world.h"
+
+typedef struct ppmi_photon_walk {
+    const ppmi_world *world;
+    uint64_t seed;
+    uint64_t first_index; /* of this call's first photon in the whole render */
+    uint32_t count;       /* photons to emit */
+    uint32_t max_depth;
+    uint32_t threads;
+    const atomic_bool *cancel;
+} ppmi_photon_walk;
+
+/* Scratch of the walk, kept between passes. */
+typedef struct ppmi_photon_scratch {
+    ppmi_photon_list *lists; /* one a thread */
+    uint32_t list_count;
+    struct ppmi_photon_chunk *chunks;
+    uint32_t chunk_capacity;
+} ppmi_photon_scratch;
+
+void ppmi_photon_scratch_deinit(ppm_context *context, ppmi_photon_scratch *scratch);
+
+/* Emits count photons and appends those that land on gathering surfaces, after at least one bounce
+ * (what comes straight from a light is left to light sampling), to out_photons, in the order of
+ * emission whatever the number of threads. Adds to *out_rays.
+ * Returns OK, CANCELLED, OUT_OF_MEMORY. */
+ppm_status ppmi_photon_walk_run(ppm_context *context, const ppmi_photon_walk *walk,
+                                ppmi_photon_scratch *scratch, ppmi_photon_list *out_photons,
+                                uint64_t *out_rays);
+
+#endif

@@ -1,0 +1,62 @@
+/* What an integrator is to a render session: passes into a picture. */
+#ifndef PPMI_RENDER_INTEGRATOR_H
+#define PPMI_RENDER_INTEGRATOR_H
+
+#include <stdatomic.h>
+
+#include "camera/camera.h"
+#include "ppm/render.h"
+#include "transport/world.h"
+
+/* What a pass reads. Const while it runs, but for cancel. */
+typedef struct ppmi_job {
+    ppm_context *context;
+    const ppm_render_options *options; /* resolved */
+    ppmi_world world;
+    ppmi_camera_view view;
+    const atomic_bool *cancel;
+} ppmi_job;
+
+/* One way of computing pictures. state is the integrator's own. */
+typedef struct ppmi_integrator {
+    const char *name;
+    ppm_status (*create)(const ppmi_job *job, void **out_state);
+    void (*destroy)(const ppmi_job *job, void *state);
+    /* Renders pass number pass (from 0) and adds to stats; state is as before if it fails or is
+     * cancelled. */
+    ppm_status (*pass)(const ppmi_job *job, void *state, uint64_t pass, ppm_render_stats *stats);
+    /* The picture after passes finished passes: width * height RGBA, row 0 on top. */
+    void (*resolve)(const ppmi_job *job, const void *state, uint64_t passes, float *rgba);
+} ppmi_integrator;
+
+extern const ppmi_integrator ppmi_integrator_sppm;
+extern const ppmi_integrator ppmi_integrator_path;
+
+/* Images are worked on in tiles of this side, which threads take one by one. */
+enum { PPMI_TILE = 16, PPMI_TILE_PIXELS = PPMI_TILE * PPMI_TILE };
+
+typedef struct ppmi_tile {
+    uint32_t x0, y0, x1, y1; /* pixels, the upper bounds excluded */
+} ppmi_tile;
+
+static inline uint32_t ppmi_tile_count(const ppm_render_options *options)
+{
+    return ((options->width + PPMI_TILE - 1) / PPMI_TILE) *
+           ((options->height + PPMI_TILE - 1) / PPMI_TILE);
+}
+
+static inline ppmi_tile ppmi_tile_at(const ppm_render_options *options, uint32_t index)
+{
+    const uint32_t columns = (options->width + PPMI_TILE - 1) / PPMI_TILE;
+    const uint32_t x0 = index % columns * PPMI_TILE, y0 = index / columns * PPMI_TILE;
+    const uint32_t x1 = x0 + PPMI_TILE, y1 = y0 + PPMI_TILE;
+    return (ppmi_tile){x0, y0, x1 < options->width ? x1 : options->width,
+                       y1 < options->height ? y1 : options->height};
+}
+
+/* Starts the camera path of a pixel in a pass: the walker's numbers and a ray through a random
+ * point of the pixel. The paths of one pixel stratify each other over the passes. */
+ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
+                                       uint32_t y, uint64_t pass);
+
+#endif

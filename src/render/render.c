@@ -1,0 +1,278 @@
+/* The render session: options, set-up, passes, picture. */
+#include "render/render.h"
+
+#include <omp.h>
+
+#include "render/integrator.h"
+
+struct ppm_render {
+    ppm_context *context;
+    ppm_scene *scene;
+    ppm_render_options options;
+    ppmi_accel *accel;
+    ppmi_lights *lights;
+    ppmi_albedo_table *albedo;
+    const ppmi_integrator *integrator;
+    void *state;
+    ppmi_job job;
+    ppm_render_stats stats;
+    atomic_bool cancel;
+};
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+static float camera_aspect(const ppm_scene *scene, ppm_camera_id camera)
+{
+    const float aspect = ppm_scene_camera_aspect(scene, camera);
+    return aspect > 0.0f ? aspect : 16.0f / 9.0f;
+}
+
+static uint32_t at_least_one(float pixels)
+{
+    return pixels < 1.0f ? 1 : (uint32_t)(pixels + 0.5f);
+}
+
+static void resolve_size(const ppm_scene *scene, ppm_render_options *options)
+{
+    const float aspect = camera_aspect(scene, options->camera);
+    if (options->width == 0 && options->height > 0) {
+        options->width = at_least_one((float)options->height * aspect);
+    }
+    if (options->width == 0) options->width = 1280;
+    if (options->height == 0) options->height = at_least_one((float)options->width / aspect);
+}
+
+static ppm_status check_options(const ppm_scene *scene, const ppm_render_options *options)
+{
+    ppm_context *context = scene->context;
+    const uint32_t largest_side = 65536;
+    if (options->width > largest_side || options->height > largest_side) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "size %ux%u: more than %u a side",
+                         options->width, options->height, largest_side);
+    }
+    if (options->integrator < PPM_INTEGRATOR_DEFAULT || options->integrator > PPM_INTEGRATOR_PATH) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "no integrator of number %d",
+                         (int)options->integrator);
+    }
+    if (options->photons_per_pass > (uint64_t)1 << 30) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "%llu photons per pass: at most 2^30 (use more passes)",
+                         (unsigned long long)options->photons_per_pass);
+    }
+    if (!(options->radius_m >= 0.0f) || isinf(options->radius_m) || !(options->alpha >= 0.0f) ||
+        options->alpha > 1.0f) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "radius %g must be a positive length, alpha %g within 0 .. 1",
+                         (double)options->radius_m, (double)options->alpha);
+    }
+    if (options->camera > scene->camera_count) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "camera %u of %u", options->camera,
+                         scene->camera_count);
+    }
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_options *options,
+                                      ppm_render_options *out_resolved)
+{
+    if (!scene || !out_resolved || (options && options->size < sizeof *options)) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    ppm_render_options resolved = {0};
+    if (options) resolved = *options;
+    resolved.size = sizeof resolved;
+    const ppm_status status = check_options(scene, &resolved);
+    if (status != PPM_STATUS_OK) return status;
+    if (resolved.integrator == PPM_INTEGRATOR_DEFAULT) resolved.integrator = PPM_INTEGRATOR_SPPM;
+    if (resolved.camera == 0 && scene->camera_count > 0) resolved.camera = 1;
+    resolve_size(scene, &resolved);
+    if (resolved.photons_per_pass == 0) {
+        const uint64_t pixels = (uint64_t)resolved.width * resolved.height;
+        const uint64_t least = 262144, most = (uint64_t)1 << 22;
+        resolved.photons_per_pass = pixels < least ? least : pixels > most ? most : pixels;
+    }
+    if (resolved.max_depth == 0) resolved.max_depth = 32;
+    if (resolved.alpha == 0.0f) resolved.alpha = 2.0f / 3.0f;
+    if (resolved.threads == 0) resolved.threads = (uint32_t)omp_get_num_procs();
+    if (resolved.threads > 4096) resolved.threads = 4096;
+    *out_resolved = resolved;
+    return PPM_STATUS_OK;
+}
+
+/* ---- creation -------------------------------------------------------------------------------- */
+
+/* What the scene needs to be rendered and does not have. */
+static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *options)
+{
+    if (scene->is_frozen) return PPM_STATUS_OK;
+    ppm_status status = PPM_STATUS_OK;
+    if (scene->camera_count == 0) {
+        float aspect = 16.0f / 9.0f;
+        if (options && options->width > 0 && options->height > 0) {
+            aspect = (float)options->width / (float)options->height;
+        }
+        ppm_camera_id id;
+        status = ppm_scene_add_framing_camera(scene, aspect, &id);
+        if (status != PPM_STATUS_OK) return status;
+        ppmi_log(scene->context, PPM_LOG_INFO,
+                 "no camera in the scene: the model is framed from a three-quarter view");
+    }
+    if (!ppmi_scene_has_light(scene)) {
+        const ppm_environment_desc environment = {.size = sizeof environment,
+                                                  .radiance = {1.0f, 1.0f, 1.0f}};
+        status = ppm_scene_set_environment(scene, &environment);
+        ppmi_log(scene->context, PPM_LOG_INFO,
+                 "no light in the scene: lit by a uniform environment of 1 nit");
+    }
+    return status;
+}
+
+static bool any_material_has_alpha(const ppm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].has_alpha) return true;
+    }
+    return false;
+}
+
+static ppm_status build_world(ppm_render *render)
+{
+    render->albedo = ppmi_alloc(render->context, 1, sizeof *render->albedo);
+    if (!render->albedo) {
+        return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: tables");
+    }
+    ppmi_albedo_table_init(render->albedo);
+    ppm_status status = ppmi_accel_create(render->context, render->scene, &render->accel);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_lights_create(render->context, render->scene, &render->lights);
+    }
+    return status;
+}
+
+static ppm_status start(ppm_render *render)
+{
+    const double begin = omp_get_wtime();
+    const ppm_status status = build_world(render);
+    if (status != PPM_STATUS_OK) return status;
+    render->job = (ppmi_job){
+        .context = render->context,
+        .options = &render->options,
+        .world = {.scene = render->scene,
+                  .accel = render->accel,
+                  .lights = render->lights,
+                  .albedo = render->albedo,
+                  .has_alpha = any_material_has_alpha(render->scene)},
+        .cancel = &render->cancel,
+    };
+    ppmi_camera_view_init(&render->scene->cameras[render->options.camera - 1],
+                          render->options.width, render->options.height, &render->job.view);
+    render->integrator = render->options.integrator == PPM_INTEGRATOR_PATH ? &ppmi_integrator_path
+                                                                           : &ppmi_integrator_sppm;
+    render->stats.size = sizeof render->stats;
+    render->stats.threads = render->options.threads;
+    render->stats.seconds_build = omp_get_wtime() - begin;
+    return render->integrator->create(&render->job, &render->state);
+}
+
+ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
+                             ppm_render **out_render)
+{
+    if (!scene || !out_render) return PPM_STATUS_INVALID_ARGUMENT;
+    ppmi_vec3 low, high;
+    if (!ppmi_scene_bounds(scene, &low, &high)) {
+        return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
+                         "there is nothing to render: the scene has no triangles");
+    }
+    ppm_status status = complete_scene(scene, options);
+    if (status != PPM_STATUS_OK) return status;
+    ppm_render_options resolved;
+    status = ppm_render_options_resolve(scene, options, &resolved);
+    if (status != PPM_STATUS_OK) return status;
+    ppm_render *render = ppmi_alloc_zeroed(scene->context, 1, sizeof *render);
+    if (!render) return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory");
+    render->context = scene->context;
+    render->scene = scene;
+    render->options = resolved;
+    scene->is_frozen = true;
+    status = start(render);
+    if (status != PPM_STATUS_OK) {
+        ppm_render_destroy(render);
+        return status;
+    }
+    *out_render = render;
+    return PPM_STATUS_OK;
+}
+
+void ppm_render_destroy(ppm_render *render)
+{
+    if (!render) return;
+    if (render->state) render->integrator->destroy(&render->job, render->state);
+    ppmi_lights_destroy(render->lights);
+    ppmi_accel_destroy(render->accel);
+    ppmi_free(render->context, render->albedo);
+    ppmi_free(render->context, render);
+}
+
+/* ---- passes ---------------------------------------------------------------------------------- */
+
+ppm_status ppm_render_advance(ppm_render *render)
+{
+    if (!render) return PPM_STATUS_INVALID_ARGUMENT;
+    if (atomic_load(&render->cancel)) return PPM_STATUS_CANCELLED;
+    const double begin = omp_get_wtime();
+    const ppm_status status =
+        render->integrator->pass(&render->job, render->state, render->stats.passes, &render->stats);
+    if (status != PPM_STATUS_OK) return status;
+    render->stats.passes++;
+    render->stats.seconds_render += omp_get_wtime() - begin;
+    return PPM_STATUS_OK;
+}
+
+void ppm_render_cancel(ppm_render *render)
+{
+    if (render) atomic_store(&render->cancel, true);
+}
+
+const ppm_render_options *ppm_render_get_options(const ppm_render *render)
+{
+    return render ? &render->options : NULL;
+}
+
+ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats)
+{
+    if (!render || !out_stats || out_stats->size < sizeof *out_stats) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    *out_stats = render->stats;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count)
+{
+    if (!render || !rgba) return PPM_STATUS_INVALID_ARGUMENT;
+    const size_t needed = 4 * (size_t)render->options.width * render->options.height;
+    if (rgba_count != needed) {
+        return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "the picture has %zu floats, the buffer %zu", needed, rgba_count);
+    }
+    if (render->stats.passes == 0) {
+        return ppmi_fail(render->context, PPM_STATUS_WRONG_STATE, "no pass is finished yet");
+    }
+    render->integrator->resolve(&render->job, render->state, render->stats.passes, rgba);
+    return PPM_STATUS_OK;
+}
+
+ppm_context *ppmi_render_context(const ppm_render *render)
+{
+    return render->context;
+}
+
+const ppm_scene *ppmi_render_scene(const ppm_render *render)
+{
+    return render->scene;
+}
+
+const char *ppmi_render_integrator_name(const ppm_render *render)
+{
+    return render->integrator->name;
+}

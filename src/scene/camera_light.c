@@ -1,0 +1,174 @@
+/* Cameras and punctual lights: checked and turned into unit vectors. */
+#include "scene/scene.h"
+
+static ppm_status fail_memory(ppm_scene *scene)
+{
+    return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for scene arrays");
+}
+
+/* The axes of a transform as an orthonormal frame; scale and shear are dropped. The camera looks
+ * and a light shines along -z. False for singular transforms. */
+static bool unit_axes(const ppmi_transform *m, ppmi_vec3 *right, ppmi_vec3 *up, ppmi_vec3 *back)
+{
+    if (!ppmi_transform_is_finite(m)) return false;
+    *back = vec3_normalize(m->z);
+    *right = vec3_normalize(vec3_cross(m->y, *back));
+    *up = vec3_cross(*back, *right);
+    /* a mirrored transform shows a mirrored picture; cameras are not mirrored by the specification
+     */
+    return vec3_length2(*back) > 0.5f && vec3_length2(*right) > 0.5f;
+}
+
+static bool camera_is_valid(const ppm_camera_desc *desc)
+{
+    if (desc->kind == PPM_CAMERA_PERSPECTIVE) {
+        return desc->y_fov_rad > 0.0f && desc->y_fov_rad < PPMI_PI && desc->aspect >= 0.0f &&
+               isfinite(desc->aspect);
+    }
+    return desc->kind == PPM_CAMERA_ORTHOGRAPHIC && desc->half_height_m > 0.0f &&
+           desc->half_width_m > 0.0f && isfinite(desc->half_height_m) &&
+           isfinite(desc->half_width_m);
+}
+
+ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
+                                ppm_camera_id *out_id)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
+    const char *name = desc->name ? desc->name : "";
+    const ppmi_transform to_world = ppmi_transform_load(desc->transform);
+    ppmi_vec3 right, up, back;
+    if (!camera_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "camera '%s': angle, size, aspect or transform out of range", name);
+    }
+    ppmi_camera *cameras =
+        ppmi_scene_grow(scene->context, scene->cameras, scene->camera_count, sizeof *cameras);
+    if (!cameras) return PPM_STATUS_OUT_OF_MEMORY;
+    scene->cameras = cameras;
+    char *name_copy = ppmi_string_copy(scene->context, name);
+    if (!name_copy) return fail_memory(scene);
+    const bool is_orthographic = desc->kind == PPM_CAMERA_ORTHOGRAPHIC;
+    cameras[scene->camera_count] = (ppmi_camera){
+        .name = name_copy,
+        .kind = desc->kind,
+        .origin = to_world.origin,
+        .right = right,
+        .up = up,
+        .forward = vec3_neg(back),
+        .y_fov_rad = desc->y_fov_rad,
+        .half_width_m = desc->half_width_m,
+        .half_height_m = desc->half_height_m,
+        .aspect = is_orthographic ? desc->half_width_m / desc->half_height_m : desc->aspect,
+    };
+    *out_id = ++scene->camera_count;
+    return PPM_STATUS_OK;
+}
+
+uint32_t ppm_scene_camera_count(const ppm_scene *scene)
+{
+    return scene ? scene->camera_count : 0;
+}
+
+const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id id)
+{
+    if (!scene || id == 0 || id > scene->camera_count) return NULL;
+    return scene->cameras[id - 1].name;
+}
+
+float ppm_scene_camera_aspect(const ppm_scene *scene, ppm_camera_id id)
+{
+    if (!scene || id == 0 || id > scene->camera_count) return 0.0f;
+    return scene->cameras[id - 1].aspect;
+}
+
+/* Distance from which a box, seen along -back, just fits into the view. */
+static float framing_distance(ppmi_vec3 half, ppmi_vec3 right, ppmi_vec3 up, ppmi_vec3 back,
+                              float tan_x, float tan_y)
+{
+    float distance = 0.0f;
+    for (uint32_t i = 0; i < 8; i++) {
+        const ppmi_vec3 p =
+            vec3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
+        const float depth = vec3_dot(p, back);
+        distance = fmaxf(distance, depth + fabsf(vec3_dot(p, right)) / tan_x);
+        distance = fmaxf(distance, depth + fabsf(vec3_dot(p, up)) / tan_y);
+    }
+    return distance;
+}
+
+ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect, ppm_camera_id *out_id)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!out_id || !(aspect > 0.0f) || !isfinite(aspect)) return PPM_STATUS_INVALID_ARGUMENT;
+    ppmi_vec3 low, high;
+    if (!ppmi_scene_bounds(scene, &low, &high)) {
+        return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE, "the scene has nothing to frame");
+    }
+    const float y_fov_rad = 0.6f; /* about a 58 mm lens on a 36 x 24 mm sensor: little distortion */
+    const float margin = 1.08f;
+    const ppmi_vec3 center = vec3_scale(vec3_add(low, high), 0.5f);
+    const ppmi_vec3 half = vec3_scale(vec3_sub(high, low), 0.5f * margin);
+    const ppmi_vec3 back = vec3_normalize(vec3(0.62f, 0.42f, 1.0f));
+    const ppmi_vec3 right = vec3_normalize(vec3_cross(vec3(0.0f, 1.0f, 0.0f), back));
+    const ppmi_vec3 up = vec3_cross(back, right);
+    const float tan_y = tanf(0.5f * y_fov_rad);
+    const float distance = framing_distance(half, right, up, back, tan_y * aspect, tan_y);
+    const ppmi_vec3 origin = vec3_mad(center, back, fmaxf(distance, 1e-6f));
+    ppm_camera_desc desc = {
+        .size = sizeof desc,
+        .name = "(framing)",
+        .kind = PPM_CAMERA_PERSPECTIVE,
+        .transform = {right.x, right.y, right.z, 0.0f, up.x, up.y, up.z, 0.0f, back.x, back.y,
+                      back.z, 0.0f, origin.x, origin.y, origin.z, 1.0f},
+        .y_fov_rad = y_fov_rad,
+        .aspect = aspect,
+    };
+    return ppm_scene_add_camera(scene, &desc, out_id);
+}
+
+static bool light_is_valid(const ppm_light_desc *desc)
+{
+    for (uint32_t i = 0; i < 3; i++) {
+        if (!(desc->intensity[i] >= 0.0f && desc->intensity[i] < 1e18f)) return false;
+    }
+    if (desc->kind != PPM_LIGHT_SPOT) {
+        return desc->kind == PPM_LIGHT_POINT || desc->kind == PPM_LIGHT_DIRECTIONAL;
+    }
+    return desc->inner_cone_rad >= 0.0f && desc->outer_cone_rad > 0.0f &&
+           desc->inner_cone_rad <= desc->outer_cone_rad &&
+           desc->outer_cone_rad <= 0.5f * PPMI_PI + 1e-5f;
+}
+
+ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm_light_id *out_id)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
+    const char *name = desc->name ? desc->name : "";
+    const ppmi_transform to_world = ppmi_transform_load(desc->transform);
+    ppmi_vec3 right, up, back;
+    if (!light_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "light '%s': intensity, cone or transform out of range", name);
+    }
+    ppmi_punctual *punctuals =
+        ppmi_scene_grow(scene->context, scene->punctuals, scene->punctual_count, sizeof *punctuals);
+    if (!punctuals) return PPM_STATUS_OUT_OF_MEMORY;
+    scene->punctuals = punctuals;
+    char *name_copy = ppmi_string_copy(scene->context, name);
+    if (!name_copy) return fail_memory(scene);
+    punctuals[scene->punctual_count] = (ppmi_punctual){
+        .name = name_copy,
+        .kind = desc->kind,
+        .position = to_world.origin,
+        .direction = vec3_neg(back),
+        .intensity = vec3_load(desc->intensity),
+        .cos_inner = cosf(desc->inner_cone_rad),
+        .cos_outer = cosf(desc->outer_cone_rad),
+    };
+    *out_id = ++scene->punctual_count;
+    return PPM_STATUS_OK;
+}

@@ -1,0 +1,349 @@
+/* Scene: creation, destruction, images, materials and facts. */
+#include "scene/scene.h"
+
+#include <string.h>
+
+ppm_status ppmi_scene_check_open(const ppm_scene *scene)
+{
+    if (!scene) return PPM_STATUS_INVALID_ARGUMENT;
+    if (scene->is_frozen) {
+        return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
+                         "the scene is frozen: a render session has been made from it");
+    }
+    return PPM_STATUS_OK;
+}
+
+void *ppmi_scene_grow(ppm_context *context, void *array, uint32_t count, size_t element_size)
+{
+    /* capacities are the powers of two from 8: growth is due exactly at a full power of two */
+    enum { FIRST_CAPACITY = 8 };
+    const bool is_full = count == 0 || (count >= FIRST_CAPACITY && (count & (count - 1)) == 0);
+    if (is_full) {
+        const size_t capacity = count == 0 ? FIRST_CAPACITY : 2 * (size_t)count;
+        void *larger = count < UINT32_MAX / 2 ? ppmi_alloc(context, capacity, element_size) : NULL;
+        if (!larger) {
+            ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for scene arrays");
+            return NULL;
+        }
+        if (array) memcpy(larger, array, count * element_size);
+        ppmi_free(context, array);
+        array = larger;
+    }
+    memset((char *)array + count * element_size, 0, element_size);
+    return array;
+}
+
+static void primitive_deinit(ppm_context *context, ppmi_primitive *primitive)
+{
+    ppmi_free(context, primitive->positions);
+    ppmi_free(context, primitive->normals);
+    ppmi_free(context, primitive->tangents);
+    for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++)
+        ppmi_free(context, primitive->uvs[i]);
+    ppmi_free(context, primitive->colors);
+    ppmi_free(context, primitive->indices);
+}
+
+static void mesh_deinit(ppm_context *context, ppmi_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        primitive_deinit(context, &mesh->primitives[i]);
+    }
+    ppmi_free(context, mesh->primitives);
+    ppmi_free(context, mesh->name);
+}
+
+void ppm_scene_destroy(ppm_scene *scene)
+{
+    if (!scene) return;
+    ppm_context *context = scene->context;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        ppmi_free(context, scene->images[i].u8);
+        ppmi_free(context, scene->images[i].f32);
+        ppmi_free(context, scene->images[i].name);
+    }
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        ppmi_free(context, scene->materials[i].name);
+    }
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        mesh_deinit(context, &scene->meshes[i]);
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        ppmi_free(context, scene->instances[i].name);
+    }
+    for (uint32_t i = 0; i < scene->camera_count; i++)
+        ppmi_free(context, scene->cameras[i].name);
+    for (uint32_t i = 0; i < scene->punctual_count; i++) {
+        ppmi_free(context, scene->punctuals[i].name);
+    }
+    ppmi_free(context, scene->images);
+    ppmi_free(context, scene->materials);
+    ppmi_free(context, scene->meshes);
+    ppmi_free(context, scene->instances);
+    ppmi_free(context, scene->cameras);
+    ppmi_free(context, scene->punctuals);
+    ppmi_free(context, scene);
+}
+
+ppm_status ppmi_scene_take_image(ppm_scene *scene, const ppmi_image *image, ppm_image_id *out_id)
+{
+    ppmi_image *images =
+        ppmi_scene_grow(scene->context, scene->images, scene->image_count, sizeof *images);
+    if (!images) return PPM_STATUS_OUT_OF_MEMORY;
+    scene->images = images;
+    images[scene->image_count] = *image;
+    *out_id = ++scene->image_count;
+    return PPM_STATUS_OK;
+}
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+void ppm_material_desc_init(ppm_material_desc *desc)
+{
+    *desc = (ppm_material_desc){
+        .size = sizeof *desc,
+        .base_color = {1.0f, 1.0f, 1.0f, 1.0f},
+        .roughness = 0.5f,
+        .normal_scale = 1.0f,
+        .ior = 1.5f,
+        .specular = 1.0f,
+        .specular_color = {1.0f, 1.0f, 1.0f},
+        .attenuation_color = {1.0f, 1.0f, 1.0f},
+        .alpha_cutoff = 0.5f,
+        .double_sided = 1,
+    };
+}
+
+static bool all_in(const float *values, uint32_t count, float low, float high)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(values[i] >= low && values[i] <= high)) return false;
+    }
+    return true;
+}
+
+static ppm_status check_texture(const ppm_scene *scene, const char *slot,
+                                const ppm_texture *texture)
+{
+    if (texture->image > scene->image_count || texture->uv_set >= PPM_MAX_UV_SETS) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "material: %s texture: image %u of %u, uv set %u of %u", slot,
+                         texture->image, scene->image_count, texture->uv_set, PPM_MAX_UV_SETS);
+    }
+    if (texture->has_transform && !all_in(texture->uv_transform, 6, -1e18f, 1e18f)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "material: %s texture: the uv transform is not finite", slot);
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status check_textures(const ppm_scene *scene, const ppm_material_desc *desc)
+{
+    const struct {
+        const char *slot;
+        const ppm_texture *texture;
+    } slots[] = {
+        {"base colour", &desc->base_color_texture},
+        {"metallic-roughness", &desc->metallic_roughness_texture},
+        {"normal", &desc->normal_texture},
+        {"emission", &desc->emission_texture},
+        {"specular", &desc->specular_texture},
+        {"specular colour", &desc->specular_color_texture},
+        {"transmission", &desc->transmission_texture},
+    };
+    for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {
+        const ppm_status status = check_texture(scene, slots[i].slot, slots[i].texture);
+        if (status != PPM_STATUS_OK) return status;
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc *desc)
+{
+    const float huge = 1e18f;
+    const struct {
+        const char *name;
+        const float *values;
+        uint32_t count;
+        float low, high;
+    } ranges[] = {
+        {"base_color", desc->base_color, 4, 0.0f, 1.0f},
+        {"metallic", &desc->metallic, 1, 0.0f, 1.0f},
+        {"roughness", &desc->roughness, 1, 0.0f, 1.0f},
+        {"normal_scale", &desc->normal_scale, 1, -huge, huge},
+        {"emission", desc->emission, 3, 0.0f, huge},
+        {"ior", &desc->ior, 1, 0.0f, 1e3f},
+        {"specular", &desc->specular, 1, 0.0f, 1.0f},
+        {"specular_color", desc->specular_color, 3, 0.0f, huge},
+        {"transmission", &desc->transmission, 1, 0.0f, 1.0f},
+        {"attenuation_color", desc->attenuation_color, 3, 0.0f, 1.0f},
+        {"attenuation_distance_m", &desc->attenuation_distance_m, 1, 0.0f, INFINITY},
+        {"alpha_cutoff", &desc->alpha_cutoff, 1, 0.0f, huge},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        if (!all_in(ranges[i].values, ranges[i].count, ranges[i].low, ranges[i].high)) {
+            return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                             "material '%s': %s is not within %g .. %g",
+                             desc->name ? desc->name : "", ranges[i].name, (double)ranges[i].low,
+                             (double)ranges[i].high);
+        }
+    }
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *desc,
+                                  ppm_material_id *out_id)
+{
+    ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
+    status = check_factors(scene, desc);
+    if (status == PPM_STATUS_OK) status = check_textures(scene, desc);
+    if (status != PPM_STATUS_OK) return status;
+
+    ppmi_material *materials =
+        ppmi_scene_grow(scene->context, scene->materials, scene->material_count, sizeof *materials);
+    if (!materials) return PPM_STATUS_OUT_OF_MEMORY;
+    scene->materials = materials;
+    ppmi_material *material = &materials[scene->material_count];
+    material->name = ppmi_string_copy(scene->context, desc->name ? desc->name : "");
+    if (!material->name) {
+        return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for a material");
+    }
+    material->desc = *desc;
+    material->desc.name = NULL;
+    material->emits = !vec3_is_black(vec3_load(desc->emission));
+    material->has_alpha = desc->alpha_mode != PPM_ALPHA_OPAQUE;
+    material->is_solid_glass =
+        desc->transmission > 0.0f && desc->transmission_kind == PPM_TRANSMISSION_SOLID;
+    *out_id = ++scene->material_count;
+    return PPM_STATUS_OK;
+}
+
+/* ---- environment and facts ------------------------------------------------------------------- */
+
+ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!desc || desc->size < sizeof *desc || !all_in(desc->radiance, 3, 0.0f, 1e18f) ||
+        desc->image > scene->image_count || !isfinite(desc->rotation_rad)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "environment: radiance, image or rotation out of range");
+    }
+    scene->environment = (ppmi_environment){
+        .is_set = true,
+        .radiance = vec3_load(desc->radiance),
+        .image = desc->image,
+        .rotation_rad = desc->rotation_rad,
+    };
+    return PPM_STATUS_OK;
+}
+
+static ppmi_vec3 corner(ppmi_vec3 low, ppmi_vec3 high, uint32_t i)
+{
+    return vec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+}
+
+static ppmi_vec3 vec3_min(ppmi_vec3 a, ppmi_vec3 b)
+{
+    return vec3(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z));
+}
+
+static ppmi_vec3 vec3_max(ppmi_vec3 a, ppmi_vec3 b)
+{
+    return vec3(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z));
+}
+
+/* Small meshes, and those whose instance is turned, are measured vertex by vertex: the box around a
+ * turned box is too large. */
+static void grow_bounds(const ppmi_mesh *mesh, const ppmi_transform *to_world, ppmi_vec3 *low,
+                        ppmi_vec3 *high)
+{
+    const bool is_turned = to_world->x.y != 0.0f || to_world->x.z != 0.0f ||
+                           to_world->y.x != 0.0f || to_world->y.z != 0.0f ||
+                           to_world->z.x != 0.0f || to_world->z.y != 0.0f;
+    if (!is_turned) {
+        for (uint32_t i = 0; i < 8; i++) {
+            const ppmi_vec3 p =
+                ppmi_transform_point(to_world, corner(mesh->bounds_min, mesh->bounds_max, i));
+            *low = vec3_min(*low, p);
+            *high = vec3_max(*high, p);
+        }
+        return;
+    }
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const ppmi_primitive *primitive = &mesh->primitives[i];
+        for (size_t k = 0; k < 3 * (size_t)primitive->triangle_count; k++) {
+            const size_t vertex = primitive->indices[k];
+            const ppmi_vec3 p =
+                ppmi_transform_point(to_world, vec3_load(primitive->positions + 3 * vertex));
+            *low = vec3_min(*low, p);
+            *high = vec3_max(*high, p);
+        }
+    }
+}
+
+bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
+{
+    *out_min = vec3_splat(INFINITY);
+    *out_max = vec3_splat(-INFINITY);
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const ppmi_instance *instance = &scene->instances[i];
+        const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
+        if (mesh->bounds_min.x > mesh->bounds_max.x) continue;
+        grow_bounds(mesh, &instance->to_world, out_min, out_max);
+    }
+    return out_min->x <= out_max->x;
+}
+
+/* Calls count with each emissive primitive that an instance uses. */
+static uint64_t emissive_triangle_count(const ppm_scene *scene)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
+        for (uint32_t k = 0; k < mesh->primitive_count; k++) {
+            const ppmi_primitive *primitive = &mesh->primitives[k];
+            if (scene->materials[primitive->material].emits) count += primitive->triangle_count;
+        }
+    }
+    return count;
+}
+
+bool ppmi_scene_has_light(const ppm_scene *scene)
+{
+    if (scene->environment.is_set && !vec3_is_black(scene->environment.radiance)) return true;
+    for (uint32_t i = 0; i < scene->punctual_count; i++) {
+        if (!vec3_is_black(scene->punctuals[i].intensity)) return true;
+    }
+    return emissive_triangle_count(scene) > 0;
+}
+
+ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
+{
+    if (!scene || !out_info || out_info->size < sizeof *out_info) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    ppm_scene_info info = {
+        .size = sizeof info,
+        .instances = scene->instance_count,
+        .meshes = scene->mesh_count,
+        .materials = scene->material_count,
+        .textures = scene->image_count,
+        .cameras = scene->camera_count,
+        .lights = scene->punctual_count + emissive_triangle_count(scene),
+        .has_light = ppmi_scene_has_light(scene),
+    };
+    if (scene->environment.is_set && !vec3_is_black(scene->environment.radiance)) info.lights++;
+    for (uint32_t i = 0; i < scene->mesh_count; i++) {
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++) {
+            info.triangles += scene->meshes[i].primitives[k].triangle_count;
+        }
+    }
+    ppmi_vec3 low, high;
+    ppmi_scene_bounds(scene, &low, &high);
+    vec3_store(info.bounds_min, low);
+    vec3_store(info.bounds_max, high);
+    *out_info = info;
+    return PPM_STATUS_OK;
+}

@@ -1,0 +1,122 @@
+/* The scene as arrays: what the builder checks and keeps, and what rendering reads.
+ *
+ * Everything is const once frozen. Ids of the public API are index + 1. */
+#ifndef PPMI_SCENE_H
+#define PPMI_SCENE_H
+
+#include <stdint.h>
+
+#include "base/context.h"
+#include "math/transform.h"
+#include "ppm/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Pixels of a texture. 8-bit values go through decode (256 entries), so that sRGB images stay one
+ * byte a channel; alpha and data never do. */
+typedef struct ppmi_image {
+    char *name;
+    uint32_t width, height, channels;
+    uint8_t *u8;  /* or NULL */
+    float *f32;   /* or NULL; linear */
+    bool is_srgb; /* u8 holds sRGB-encoded colour */
+} ppmi_image;
+
+typedef struct ppmi_material {
+    char *name;
+    ppm_material_desc desc; /* desc.name is not used */
+    bool emits;             /* emission is not black */
+    bool has_alpha;         /* MASK or BLEND: a ray may pass */
+    bool is_solid_glass;    /* transmissive, bounds a solid */
+} ppmi_material;
+
+/* Triangles with one material. positions have 16 bytes of padding behind them, as Embree reads the
+ * last vertex 16 bytes at once. */
+typedef struct ppmi_primitive {
+    uint32_t vertex_count, triangle_count;
+    float *positions;
+    float *normals;  /* or NULL: flat */
+    float *tangents; /* or NULL */
+    float *uvs[PPM_MAX_UV_SETS];
+    float *colors; /* or NULL */
+    uint32_t *indices;
+    uint32_t material; /* index */
+} ppmi_primitive;
+
+typedef struct ppmi_mesh {
+    char *name;
+    uint32_t primitive_count;
+    ppmi_primitive *primitives;
+    ppmi_vec3 bounds_min, bounds_max; /* object space, of the used vertices */
+} ppmi_mesh;
+
+typedef struct ppmi_instance {
+    char *name;
+    uint32_t mesh; /* index */
+    ppmi_transform to_world;
+    ppmi_transform normals; /* takes normals to normals, up to length */
+    bool is_mirrored;       /* negative determinant: the winding is reversed */
+} ppmi_instance;
+
+typedef struct ppmi_camera {
+    char *name;
+    int32_t kind;
+    ppmi_vec3 origin, right, up, forward; /* orthonormal */
+    float y_fov_rad;
+    float half_width_m, half_height_m;
+    float aspect;
+} ppmi_camera;
+
+typedef struct ppmi_punctual {
+    char *name;
+    int32_t kind;
+    ppmi_vec3 position, direction; /* direction: where it shines, unit */
+    ppmi_vec3 intensity;
+    float cos_inner, cos_outer; /* spot */
+} ppmi_punctual;
+
+typedef struct ppmi_environment {
+    bool is_set;
+    ppmi_vec3 radiance;
+    uint32_t image; /* index + 1; 0: constant */
+    float rotation_rad;
+} ppmi_environment;
+
+struct ppm_scene {
+    ppm_context *context;
+    float srgb_to_linear[256];
+    uint32_t image_count, material_count, mesh_count, instance_count, camera_count, punctual_count;
+    ppmi_image *images;
+    ppmi_material *materials;
+    ppmi_mesh *meshes;
+    ppmi_instance *instances;
+    ppmi_camera *cameras;
+    ppmi_punctual *punctuals;
+    ppmi_environment environment;
+    bool is_frozen;
+};
+
+/* World bounds of all instances; false when there is nothing. */
+bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
+
+/* Whether anything shines: environment, punctual light or emissive material in use. */
+bool ppmi_scene_has_light(const ppm_scene *scene);
+
+/* Takes ownership of decoded pixels (u8 or f32 made by ppmi_alloc); on failure the caller keeps
+ * them. */
+ppm_status ppmi_scene_take_image(ppm_scene *scene, const ppmi_image *image, ppm_image_id *out_id);
+
+/* WRONG_STATE once frozen, else OK. */
+ppm_status ppmi_scene_check_open(const ppm_scene *scene);
+
+/* Room for one more element in an array that doubles; the new element is zeroed and NOT counted
+ * until the caller raises *count. NULL when memory is out (reported). */
+void *ppmi_scene_grow(ppm_context *context, void *array, uint32_t count, size_t element_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

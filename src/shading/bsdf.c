@@ -1,0 +1,411 @@
+/* Building, evaluating and sampling the lobes.
+ *
+ * The layering follows glTF 2.0 appendix B, but the diffuse base is weighed by the albedo that the
+ * coat leaves over in both directions, (1 - E(o)) (1 - E(i)) / (1 - E_avg) (Kelemen and
+ * Szirmay-Kalos 2001; Kulla and Conty 2017), instead of 1 - F(v.h): the appendix's form makes
+ * energy at grazing angles and loses it elsewhere, this one returns exactly 1 in a white furnace
+ * and is reciprocal. */
+#include "shading/bsdf.h"
+
+#include "shading/microfacet.h"
+
+/* A GGX lobe at least this wide is worth estimating from photon density: below, few photons fall
+ * into it and the path goes on by sampling it instead. */
+static const float gather_alpha = 0.2f;
+
+/* ---- building -------------------------------------------------------------------------------- */
+
+static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
+{
+    return pair.a * f0 + pair.b * f90;
+}
+
+/* The index of KHR_materials_ior; its 0 means a Fresnel term of 1 throughout, which a huge index
+ * comes close to. */
+static float index_of(float ior)
+{
+    return ior == 0.0f ? 1e4f : fmaxf(ior, 1.0f);
+}
+
+static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                      const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque)
+{
+    const ppmi_albedo_pair at_o = ppmi_albedo_directional(albedo, point->roughness, bsdf->wo.z);
+    const ppmi_albedo_pair average = ppmi_albedo_average(albedo, point->roughness);
+    bsdf->coat_f0 = vec3_max_component(dielectric_f0);
+    bsdf->coat_f90 = point->specular;
+    const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
+    const float left_average = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+    const float coat = opaque * (1.0f - point->metallic) * left_o / fmaxf(left_average, 1e-4f);
+    bsdf->coat_base = vec3_scale(point->base_color, coat);
+
+    /* Kulla and Conty: F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) */
+    const float e_average = average.a + average.b;
+    const float lost_average = 1.0f - e_average;
+    if (point->metallic > 0.0f && lost_average > 1e-4f) {
+        const ppmi_vec3 f = vec3_lerp(point->base_color, vec3_splat(1.0f), 1.0f / 21.0f);
+        const ppmi_vec3 f_ms = vec3(f.x * f.x * e_average / (1.0f - f.x * lost_average),
+                                    f.y * f.y * e_average / (1.0f - f.y * lost_average),
+                                    f.z * f.z * e_average / (1.0f - f.z * lost_average));
+        const float metal = opaque * point->metallic * (1.0f - at_o.a - at_o.b) / lost_average;
+        bsdf->metal_base = vec3_scale(f_ms, fmaxf(metal, 0.0f));
+    }
+}
+
+static void make_lobe_masks(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+{
+    const ppmi_albedo_pair at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
+    const ppmi_albedo_pair average = ppmi_albedo_average(albedo, bsdf->roughness);
+    const float coat_left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+    float albedos[3];
+    albedos[0] = vec3_max_component(bsdf->coat_base) * coat_left +
+                 vec3_max_component(bsdf->metal_base) * (1.0f - average.a - average.b);
+    albedos[1] = at_o.a * vec3_max_component(bsdf->f0) + at_o.b * vec3_max_component(bsdf->f90);
+    albedos[2] = bsdf->glass_weight;
+    const float sum = albedos[0] + albedos[1] + albedos[2];
+    for (uint32_t i = 0; i < 3; i++) {
+        if (!(albedos[i] > 1e-6f)) continue;
+        bsdf->lobe_probability[i] = albedos[i] / sum;
+        bsdf->lobes |= (uint8_t)(1u << i);
+    }
+    if (bsdf->alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_SPEC;
+    if (bsdf->glass_alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_GLASS;
+    bsdf->gather_lobes = PPMI_LOBE_WIDE;
+    if (bsdf->alpha >= gather_alpha) bsdf->gather_lobes |= PPMI_LOBE_SPEC;
+    bsdf->gather_lobes &= bsdf->lobes;
+    bsdf->delta_lobes &= bsdf->lobes;
+}
+
+/* The index ratio and roughness of the glass lobe. */
+static void make_glass(ppmi_bsdf *bsdf, const ppmi_material_point *point, bool is_outside)
+{
+    const float index = index_of(point->ior);
+    bsdf->is_thin = point->is_thin;
+    bsdf->glass_weight = point->transmission * (1.0f - point->metallic);
+    bsdf->tint = point->base_color;
+    bsdf->eta = is_outside || point->is_thin ? index : 1.0f / index;
+    bsdf->glass_alpha = bsdf->alpha;
+    /* without an index step there is no half vector: the ray goes straight on */
+    if (fabsf(index - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
+}
+
+/* A shading normal that wo sees from behind would be black: it is bent until wo just sees it. */
+static ppmi_vec3 visible_normal(ppmi_vec3 ns, ppmi_vec3 wo)
+{
+    const float least = 0.02f;
+    const float cosine = vec3_dot(ns, wo);
+    if (cosine >= least) return ns;
+    return vec3_normalize(vec3_mad(ns, wo, least - cosine));
+}
+
+void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface,
+                    const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *out_bsdf)
+{
+    ppmi_bsdf *bsdf = out_bsdf;
+    *bsdf = (ppmi_bsdf){0};
+    const bool is_outside = vec3_dot(wo, surface->ng) >= 0.0f;
+    bsdf->ng = is_outside ? surface->ng : vec3_neg(surface->ng);
+    const ppmi_vec3 ns = is_outside ? point->ns : vec3_neg(point->ns);
+    bsdf->frame = ppmi_frame_from_normal(visible_normal(ns, wo));
+    bsdf->wo = ppmi_frame_to_local(&bsdf->frame, wo);
+    bsdf->wo.z = fmaxf(bsdf->wo.z, 1e-4f);
+    bsdf->roughness = point->roughness;
+    bsdf->alpha = point->roughness * point->roughness;
+
+    const float index = index_of(point->ior);
+    const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
+    const ppmi_vec3 dielectric_f0 =
+        vec3(fminf(r0 * point->specular_color.x, 1.0f) * point->specular,
+             fminf(r0 * point->specular_color.y, 1.0f) * point->specular,
+             fminf(r0 * point->specular_color.z, 1.0f) * point->specular);
+    const float opaque = 1.0f - point->transmission * (1.0f - point->metallic);
+    /* the dielectric's share of the opaque part, with its metallic blend */
+    const float metal = opaque > 0.0f ? point->metallic / opaque : 0.0f;
+    bsdf->f0 = vec3_scale(vec3_lerp(dielectric_f0, point->base_color, metal), opaque);
+    bsdf->f90 = vec3_splat(opaque * (point->specular + (1.0f - point->specular) * metal));
+    make_glass(bsdf, point, is_outside);
+    ppmi_material_point opaque_point = *point;
+    opaque_point.metallic = metal;
+    make_wide(bsdf, albedo, &opaque_point, dielectric_f0, opaque);
+    make_lobe_masks(bsdf, albedo);
+}
+
+/* ---- evaluation ------------------------------------------------------------------------------ */
+
+static ppmi_vec3 wide_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float cos_i)
+{
+    if (bsdf->coat_f90 == 0.0f && bsdf->coat_f0 == 0.0f && vec3_is_black(bsdf->metal_base)) {
+        return vec3_scale(bsdf->coat_base, PPMI_INV_PI); /* plain Lambert */
+    }
+    const ppmi_albedo_pair at_i = ppmi_albedo_directional(albedo, bsdf->roughness, cos_i);
+    const float coat = 1.0f - pair_value(at_i, bsdf->coat_f0, bsdf->coat_f90);
+    const float metal = fmaxf(1.0f - at_i.a - at_i.b, 0.0f);
+    return vec3_scale(vec3_mad(vec3_scale(bsdf->coat_base, coat), bsdf->metal_base, metal),
+                      PPMI_INV_PI);
+}
+
+static ppmi_vec3 spec_fresnel(const ppmi_bsdf *bsdf, float cos_h)
+{
+    return vec3_lerp(bsdf->f0, bsdf->f90, ppmi_schlick_weight(cos_h));
+}
+
+static ppmi_vec3 spec_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const ppmi_vec3 h = vec3_normalize(vec3_add(bsdf->wo, wi));
+    const float d = ppmi_ggx_d(bsdf->alpha, h.z);
+    const float g = ppmi_ggx_g2(bsdf->alpha, bsdf->wo.z, wi.z);
+    return vec3_scale(spec_fresnel(bsdf, vec3_dot(wi, h)), d * g / (4.0f * bsdf->wo.z * wi.z));
+}
+
+static float spec_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const ppmi_vec3 h = vec3_normalize(vec3_add(bsdf->wo, wi));
+    const float cos_oh = vec3_dot(bsdf->wo, h);
+    if (cos_oh <= 0.0f) return 0.0f;
+    return ppmi_ggx_visible_d(bsdf->alpha, bsdf->wo, h) / (4.0f * cos_oh);
+}
+
+/* Reflectance of a thin sheet: both faces and the light that goes to and fro between them,
+ * R + T R T + T R^3 T + ... = 2 R / (1 + R). */
+static float glass_reflectance(const ppmi_bsdf *bsdf, float cos_h, float *out_cos_t)
+{
+    const float r = ppmi_fresnel_dielectric(cos_h, bsdf->eta, out_cos_t);
+    return bsdf->is_thin ? 2.0f * r / (1.0f + r) : r;
+}
+
+/* A thin sheet's transmission lobe is the reflection lobe, flipped through the sheet. */
+static ppmi_vec3 thin_fold(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    return bsdf->is_thin && wi.z < 0.0f ? vec3(wi.x, wi.y, -wi.z) : wi;
+}
+
+/* The half vector of a direction pair, on the side of wo; for refraction equation 16 of Walter et
+ * al. False where no microfacet connects the two. */
+static bool glass_half(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 *out_h)
+{
+    const bool is_reflection = wi.z > 0.0f;
+    ppmi_vec3 h = is_reflection ? vec3_add(bsdf->wo, wi) : vec3_mad(bsdf->wo, wi, bsdf->eta);
+    if (vec3_length2(h) < 1e-16f) return false;
+    h = vec3_normalize(h);
+    if (h.z < 0.0f) h = vec3_neg(h);
+    *out_h = h;
+    const float cos_i = vec3_dot(wi, h);
+    return vec3_dot(bsdf->wo, h) > 0.0f && (is_reflection ? cos_i > 0.0f : cos_i < 0.0f);
+}
+
+/* Density of wi per density of its half vector: equations 14 and 17 of Walter et al. */
+static float glass_jacobian(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 h)
+{
+    if (wi.z > 0.0f) return 1.0f / (4.0f * vec3_dot(wi, h));
+    const float denominator = vec3_dot(bsdf->wo, h) + bsdf->eta * vec3_dot(wi, h);
+    return bsdf->eta * bsdf->eta * fabsf(vec3_dot(wi, h)) /
+           fmaxf(denominator * denominator, 1e-12f);
+}
+
+static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
+{
+    const bool is_transmission = wi.z < 0.0f;
+    const ppmi_vec3 folded = thin_fold(bsdf, wi);
+    ppmi_vec3 h;
+    if (!glass_half(bsdf, folded, &h)) return vec3_splat(0.0f);
+    const float cos_oh = vec3_dot(bsdf->wo, h);
+    float cos_t;
+    const float reflectance = glass_reflectance(bsdf, cos_oh, &cos_t);
+    const float d = ppmi_ggx_d(bsdf->glass_alpha, h.z);
+    const float g = ppmi_ggx_g2(bsdf->glass_alpha, bsdf->wo.z, fabsf(wi.z));
+    const float common = bsdf->glass_weight * d * g * cos_oh * glass_jacobian(bsdf, folded, h) /
+                         (bsdf->wo.z * fabsf(wi.z));
+    if (!is_transmission) return vec3_splat(common * reflectance);
+    const float radiance_scale = transport == PPMI_TRANSPORT_RADIANCE && !bsdf->is_thin
+                                     ? 1.0f / (bsdf->eta * bsdf->eta)
+                                     : 1.0f;
+    return vec3_scale(bsdf->tint, common * (1.0f - reflectance) * radiance_scale);
+}
+
+static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const bool is_transmission = wi.z < 0.0f;
+    const ppmi_vec3 folded = thin_fold(bsdf, wi);
+    ppmi_vec3 h;
+    if (!glass_half(bsdf, folded, &h)) return 0.0f;
+    float cos_t;
+    const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);
+    return (is_transmission ? 1.0f - reflectance : reflectance) *
+           ppmi_ggx_visible_d(bsdf->glass_alpha, bsdf->wo, h) * glass_jacobian(bsdf, folded, h);
+}
+
+/* Both normals must agree on which side wi is: light does not leak through the surface where the
+ * shading normal leans over. */
+static bool sides_agree(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float local_z)
+{
+    return local_z * vec3_dot(wi, bsdf->ng) > 0.0f;
+}
+
+ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi_world,
+                         uint32_t mask, ppmi_transport transport)
+{
+    const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
+    ppmi_vec3 f = vec3_splat(0.0f);
+    if (!sides_agree(bsdf, wi_world, wi.z)) return f;
+    mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
+    if (wi.z > 0.0f) {
+        if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
+        if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
+    }
+    if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, glass_eval(bsdf, wi, transport));
+    return f;
+}
+
+float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < 3; i++) {
+        if (mask >> i & 1) sum += bsdf->lobe_probability[i];
+    }
+    return sum;
+}
+
+float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
+{
+    const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
+    const float total = ppmi_bsdf_probability(bsdf, mask);
+    if (!sides_agree(bsdf, wi_world, wi.z) || total <= 0.0f) return 0.0f;
+    mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
+    float pdf = 0.0f;
+    if (wi.z > 0.0f) {
+        if (mask & PPMI_LOBE_WIDE) pdf += bsdf->lobe_probability[0] * wi.z * PPMI_INV_PI;
+        if (mask & PPMI_LOBE_SPEC) pdf += bsdf->lobe_probability[1] * spec_pdf(bsdf, wi);
+    }
+    if (mask & PPMI_LOBE_GLASS) pdf += bsdf->lobe_probability[2] * glass_pdf(bsdf, wi);
+    return pdf / total;
+}
+
+/* ---- sampling -------------------------------------------------------------------------------- */
+
+static ppmi_vec3 reflect_about(ppmi_vec3 wo, ppmi_vec3 h)
+{
+    return vec3_sub(vec3_scale(h, 2.0f * vec3_dot(wo, h)), wo);
+}
+
+/* Refraction at a facet; cos_t from Fresnel. */
+static ppmi_vec3 refract_about(ppmi_vec3 wo, ppmi_vec3 h, float eta, float cos_t)
+{
+    return vec3_mad(vec3_scale(wo, -1.0f / eta), h, vec3_dot(wo, h) / eta - cos_t);
+}
+
+/* A mirrored direction that a leaning shading normal sent below the surface comes back out: a
+ * black rim at silhouettes would be worse than this small turn. */
+static ppmi_vec3 lift_reflection(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const float below = vec3_dot(wi, bsdf->ng);
+    if (below > 0.0f) return wi;
+    return vec3_normalize(vec3_mad(wi, bsdf->ng, 1e-3f - 2.0f * below));
+}
+
+static bool draw_mirror(const ppmi_bsdf *bsdf, float probability, ppmi_bsdf_sample *sample)
+{
+    const ppmi_vec3 local = vec3(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z);
+    sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, local));
+    sample->weight = vec3_scale(spec_fresnel(bsdf, bsdf->wo.z), 1.0f / probability);
+    return true;
+}
+
+/* The smooth interface: Fresnel decides, so the weight is that of the lobe alone. */
+static bool draw_smooth_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, float probability,
+                              float u, ppmi_bsdf_sample *sample)
+{
+    const ppmi_vec3 up = vec3(0.0f, 0.0f, 1.0f);
+    float cos_t;
+    const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    const float share = bsdf->glass_weight / probability;
+    if (u < reflectance) {
+        sample->wi =
+            lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, reflect_about(bsdf->wo, up)));
+        sample->weight = vec3_splat(share);
+        return true;
+    }
+    const ppmi_vec3 local =
+        bsdf->is_thin ? vec3_neg(bsdf->wo) : refract_about(bsdf->wo, up, bsdf->eta, cos_t);
+    sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, local));
+    sample->is_transmission = true;
+    const float scale = transport == PPMI_TRANSPORT_RADIANCE && !bsdf->is_thin
+                            ? share / (bsdf->eta * bsdf->eta)
+                            : share;
+    sample->weight = vec3_scale(bsdf->tint, scale);
+    /* at a leaning shading normal the refracted ray may stay above the surface: absorbed */
+    return vec3_dot(sample->wi, bsdf->ng) < 0.0f;
+}
+
+/* A direction of the rough glass lobe, local. u is used up for the choice of side and what is left
+ * of it for the facet. */
+static bool draw_rough_glass(const ppmi_bsdf *bsdf, float u_side, float u, float v, ppmi_vec3 *wi)
+{
+    const ppmi_vec3 h = ppmi_ggx_sample_visible(bsdf->glass_alpha, bsdf->wo, u, v);
+    float cos_t;
+    const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);
+    if (u_side < reflectance) {
+        *wi = reflect_about(bsdf->wo, h);
+        return wi->z > 0.0f;
+    }
+    if (bsdf->is_thin) {
+        *wi = reflect_about(bsdf->wo, h);
+        wi->z = -wi->z;
+    } else {
+        *wi = vec3_normalize(refract_about(bsdf->wo, h, bsdf->eta, cos_t));
+    }
+    return wi->z < 0.0f;
+}
+
+/* Which lobe of the mask u falls to; what is left of u is uniform again. */
+static uint32_t choose_lobe(const ppmi_bsdf *bsdf, uint32_t mask, float total, float *u)
+{
+    float x = *u * total;
+    uint32_t last = 3;
+    for (uint32_t i = 0; i < 3; i++) {
+        const float p = bsdf->lobe_probability[i];
+        if (!(mask >> i & 1) || p <= 0.0f) continue;
+        last = i;
+        if (x < p) {
+            *u = x / p;
+            return i;
+        }
+        x -= p;
+    }
+    *u = 0.5f;
+    return last;
+}
+
+bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                    ppmi_transport transport, float u_lobe, float u, float v,
+                    ppmi_bsdf_sample *out_sample)
+{
+    mask &= bsdf->lobes;
+    const float total = ppmi_bsdf_probability(bsdf, mask);
+    if (total <= 0.0f) return false;
+    const uint32_t lobe = choose_lobe(bsdf, mask, total, &u_lobe);
+    *out_sample = (ppmi_bsdf_sample){0};
+    if (bsdf->delta_lobes >> lobe & 1) {
+        out_sample->is_delta = true;
+        const float probability = bsdf->lobe_probability[lobe] / total;
+        return 1u << lobe == PPMI_LOBE_SPEC
+                   ? draw_mirror(bsdf, probability, out_sample)
+                   : draw_smooth_glass(bsdf, transport, probability, u_lobe, out_sample);
+    }
+    ppmi_vec3 wi;
+    if (1u << lobe == PPMI_LOBE_WIDE) {
+        wi = ppmi_sample_cosine_hemisphere(u, v);
+    } else if (1u << lobe == PPMI_LOBE_SPEC) {
+        wi = reflect_about(bsdf->wo, ppmi_ggx_sample_visible(bsdf->alpha, bsdf->wo, u, v));
+        if (wi.z <= 0.0f) return false;
+    } else if (!draw_rough_glass(bsdf, u_lobe, u, v, &wi)) {
+        return false;
+    }
+    out_sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, wi));
+    out_sample->is_transmission = wi.z < 0.0f;
+    out_sample->pdf = ppmi_bsdf_pdf(bsdf, out_sample->wi, mask);
+    if (!(out_sample->pdf > 0.0f)) return false;
+    const ppmi_vec3 f = ppmi_bsdf_eval(bsdf, albedo, out_sample->wi, mask, transport);
+    out_sample->weight =
+        vec3_scale(f, fabsf(ppmi_bsdf_cosine(bsdf, out_sample->wi)) / out_sample->pdf);
+    return !vec3_is_black(out_sample->weight);
+}

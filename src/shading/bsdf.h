@@ -1,0 +1,84 @@
+/* The BSDF at one point, as lobes that can be evaluated, sampled and measured one by one.
+ *
+ *   WIDE   Lambert under the coat, and the multiple scattering of a rough metal: always gathers
+ *   SPEC   GGX reflection of the coat or the metal; a mirror when smooth
+ *   GLASS  dielectric interface or thin sheet: reflection and refraction; smooth or rough
+ *
+ * Directions point away from the surface, in world space. wo is the side the BSDF was made for: the
+ * eye on eye paths, where the light came from on photon paths. */
+#ifndef PPMI_SHADING_BSDF_H
+#define PPMI_SHADING_BSDF_H
+
+#include "shading/albedo.h"
+#include "shading/material.h"
+
+enum { PPMI_LOBE_WIDE = 1, PPMI_LOBE_SPEC = 2, PPMI_LOBE_GLASS = 4, PPMI_LOBE_ALL = 7 };
+
+/* What a path carries. Radiance is scaled by the square of the index ratio where it is refracted,
+ * photon power is not (Veach 1997, section 5.2). */
+typedef enum ppmi_transport { PPMI_TRANSPORT_RADIANCE, PPMI_TRANSPORT_POWER } ppmi_transport;
+
+typedef struct ppmi_bsdf {
+    ppmi_frame frame; /* around the shading normal, on wo's side */
+    ppmi_vec3 ng;     /* geometric normal, on wo's side */
+    ppmi_vec3 wo;     /* local */
+
+    /* WIDE: f = (coat_base (1 - E(i)) + metal_base (1 - Em(i))) / pi; the parts that depend on wo
+     * only are folded into the colours */
+    ppmi_vec3 coat_base;
+    ppmi_vec3 metal_base;
+    float coat_f0, coat_f90; /* for E */
+
+    /* SPEC: (f0 + (f90 - f0) schlick) D G / 4 cos cos */
+    ppmi_vec3 f0, f90;
+    float alpha;
+    float roughness;
+
+    /* GLASS */
+    ppmi_vec3 tint;     /* of what is transmitted */
+    float glass_weight; /* share of the surface */
+    float glass_alpha;
+    float eta; /* index on the far side by the one on wo's side */
+    bool is_thin;
+
+    float lobe_probability[3]; /* WIDE, SPEC, GLASS; sums to 1, or all 0 for black */
+    uint8_t lobes;             /* mask of lobes that are there */
+    uint8_t delta_lobes;       /* those of them that are infinitely narrow */
+    uint8_t gather_lobes;      /* those wide enough for density estimation */
+} ppmi_bsdf;
+
+typedef struct ppmi_bsdf_sample {
+    ppmi_vec3 wi;
+    ppmi_vec3 weight; /* f |cos| / pdf, with the shading normal's cosine */
+    float pdf;        /* by solid angle, of the lobes in the mask; 0 for a delta lobe */
+    bool is_delta;
+    bool is_transmission;
+} ppmi_bsdf_sample;
+
+/* wo: unit, away from the surface. */
+void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface,
+                    const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *out_bsdf);
+
+/* f without cosine, of the non-delta lobes in mask. */
+ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
+                         uint32_t mask, ppmi_transport transport);
+
+/* Density by solid angle with which ppmi_bsdf_sample draws wi, given that it draws from mask: the
+ * lobes' probabilities are normalised over the mask, delta lobes included. */
+float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi, uint32_t mask);
+
+/* Probability, over all lobes, of those in mask. */
+float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask);
+
+/* Draws a direction from the lobes in mask; u_lobe, u, v in [0, 1). False when nothing leaves. */
+bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                    ppmi_transport transport, float u_lobe, float u, float v,
+                    ppmi_bsdf_sample *out_sample);
+
+/* Cosine of a direction to the shading normal. */
+static inline float ppmi_bsdf_cosine(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    return vec3_dot(wi, bsdf->frame.n);
+}
+
+#endif

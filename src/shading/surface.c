@@ -1,0 +1,173 @@
+/* Hits to surfaces.
+ *
+ * Positions come from the triangle's vertices, not from the ray, so that their error does not grow
+ * with the ray's length (Waechter and Binder, "A Fast and Robust Method for Avoiding
+ * Self-Intersection", Ray Tracing Gems 2019, ch. 6). The error bound follows the largest coordinate
+ * that took part in the sum: scenes may be millimetres or kilometres. */
+#include "shading/surface.h"
+
+#include <float.h>
+
+#include "shading/texture.h"
+
+/* Roundings in: object to world (4 products and sums), interpolation, Embree's own edge tests. */
+static const float error_ulps = 24.0f;
+
+static ppmi_vec3 interpolate3(const float *values, const uint32_t *triangle, float u, float v)
+{
+    const ppmi_vec3 a = vec3_load(values + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 b = vec3_load(values + 3 * (size_t)triangle[1]);
+    const ppmi_vec3 c = vec3_load(values + 3 * (size_t)triangle[2]);
+    return vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
+}
+
+static ppmi_vec3 shading_normal(const ppmi_surface *surface, const uint32_t *triangle)
+{
+    if (!surface->primitive->normals) return surface->ng;
+    const ppmi_vec3 local =
+        interpolate3(surface->primitive->normals, triangle, surface->u, surface->v);
+    const ppmi_vec3 world = ppmi_transform_vector(&surface->instance->normals, local);
+    const float length = vec3_length(world);
+    if (!(length > 1e-6f)) return surface->ng;
+    const ppmi_vec3 ns = vec3_scale(world, 1.0f / length);
+    return vec3_dot(ns, surface->ng) < 0.0f ? vec3_neg(ns) : ns;
+}
+
+void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_surface *out_surface)
+{
+    ppmi_surface *surface = out_surface;
+    surface->instance = &scene->instances[hit->instance];
+    surface->primitive = &scene->meshes[surface->instance->mesh].primitives[hit->primitive];
+    surface->material = &scene->materials[surface->primitive->material];
+    surface->triangle = hit->triangle;
+    surface->u = hit->u;
+    surface->v = hit->v;
+
+    const ppmi_transform *to_world = &surface->instance->to_world;
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)hit->triangle;
+    const float *positions = surface->primitive->positions;
+    const ppmi_vec3 a =
+        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[0]));
+    const ppmi_vec3 b =
+        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[1]));
+    const ppmi_vec3 c =
+        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[2]));
+    surface->position =
+        vec3_mad(vec3_mad(vec3_scale(a, 1.0f - hit->u - hit->v), b, hit->u), c, hit->v);
+
+    const ppmi_vec3 ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    surface->ng = surface->instance->is_mirrored ? vec3_neg(ng) : ng;
+    const float magnitude = fmaxf(fmaxf(vec3_max_abs(a), vec3_max_abs(b)),
+                                  fmaxf(vec3_max_abs(c), vec3_max_abs(to_world->origin)));
+    surface->error = error_ulps * FLT_EPSILON * magnitude;
+    surface->ns = shading_normal(surface, triangle);
+}
+
+ppmi_vec2 ppmi_surface_uv(const ppmi_surface *surface, uint32_t set)
+{
+    const float *uvs = surface->primitive->uvs[set];
+    if (!uvs) return (ppmi_vec2){0.0f, 0.0f};
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const float *a = uvs + 2 * (size_t)triangle[0];
+    const float *b = uvs + 2 * (size_t)triangle[1];
+    const float *c = uvs + 2 * (size_t)triangle[2];
+    const float u = surface->u, v = surface->v, w = 1.0f - u - v;
+    return (ppmi_vec2){w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
+}
+
+void ppmi_surface_vertex_color(const ppmi_surface *surface, float out_rgba[4])
+{
+    const float *colors = surface->primitive->colors;
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const float u = surface->u, v = surface->v, w = 1.0f - u - v;
+    for (uint32_t i = 0; i < 4; i++) {
+        out_rgba[i] = colors ? w * colors[4 * (size_t)triangle[0] + i] +
+                                   u * colors[4 * (size_t)triangle[1] + i] +
+                                   v * colors[4 * (size_t)triangle[2] + i]
+                             : 1.0f;
+    }
+}
+
+/* From the mesh: bitangent = cross(normal, tangent) * w in object space (glTF 2.0, 3.7.2.1). */
+static bool mesh_tangents(const ppmi_surface *surface, ppmi_vec3 *tangent, ppmi_vec3 *bitangent)
+{
+    const ppmi_primitive *primitive = surface->primitive;
+    if (!primitive->tangents || !primitive->normals) return false;
+    const uint32_t *triangle = primitive->indices + 3 * (size_t)surface->triangle;
+    const float *a = primitive->tangents + 4 * (size_t)triangle[0];
+    const float *b = primitive->tangents + 4 * (size_t)triangle[1];
+    const float *c = primitive->tangents + 4 * (size_t)triangle[2];
+    const float u = surface->u, v = surface->v, w = 1.0f - u - v;
+    const ppmi_vec3 t = vec3(w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1],
+                             w * a[2] + u * b[2] + v * c[2]);
+    const ppmi_vec3 n = interpolate3(primitive->normals, triangle, u, v);
+    const ppmi_transform *to_world = &surface->instance->to_world;
+    *tangent = vec3_normalize(ppmi_transform_vector(to_world, t));
+    *bitangent = vec3_normalize(
+        ppmi_transform_vector(to_world, vec3_scale(vec3_cross(n, t), a[3] < 0.0f ? -1.0f : 1.0f)));
+    return vec3_length2(*tangent) > 0.5f && vec3_length2(*bitangent) > 0.5f;
+}
+
+/* From the derivatives of the coordinates over the triangle; v runs down, the bitangent up. */
+static bool uv_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *tangent,
+                        ppmi_vec3 *bitangent)
+{
+    const float *uvs = surface->primitive->uvs[uv_set];
+    if (!uvs) return false;
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const float *a = uvs + 2 * (size_t)triangle[0];
+    const float *b = uvs + 2 * (size_t)triangle[1];
+    const float *c = uvs + 2 * (size_t)triangle[2];
+    const float *positions = surface->primitive->positions;
+    const ppmi_vec3 origin = vec3_load(positions + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 e1 = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[1]), origin);
+    const ppmi_vec3 e2 = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[2]), origin);
+    const float du1 = b[0] - a[0], dv1 = b[1] - a[1], du2 = c[0] - a[0], dv2 = c[1] - a[1];
+    const float determinant = du1 * dv2 - du2 * dv1;
+    if (determinant == 0.0f || !isfinite(determinant)) return false;
+    const float sign = determinant > 0.0f ? 1.0f : -1.0f;
+    const ppmi_vec3 dpdu = vec3_scale(vec3_sub(vec3_scale(e1, dv2), vec3_scale(e2, dv1)), sign);
+    const ppmi_vec3 dpdv = vec3_scale(vec3_sub(vec3_scale(e2, du1), vec3_scale(e1, du2)), sign);
+    const ppmi_transform *to_world = &surface->instance->to_world;
+    *tangent = vec3_normalize(ppmi_transform_vector(to_world, dpdu));
+    *bitangent = vec3_neg(vec3_normalize(ppmi_transform_vector(to_world, dpdv)));
+    return vec3_length2(*tangent) > 0.5f && vec3_length2(*bitangent) > 0.5f;
+}
+
+bool ppmi_surface_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *out_tangent,
+                           ppmi_vec3 *out_bitangent)
+{
+    return mesh_tangents(surface, out_tangent, out_bitangent) ||
+           uv_tangents(surface, uv_set, out_tangent, out_bitangent);
+}
+
+float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    if (desc->alpha_mode == PPM_ALPHA_OPAQUE) return 1.0f;
+    float rgba[4];
+    ppmi_surface_vertex_color(surface, rgba);
+    float alpha = desc->base_color[3] * rgba[3];
+    const ppm_texture *texture = &desc->base_color_texture;
+    if (texture->image > 0) {
+        alpha *= ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set)).a;
+    }
+    if (desc->alpha_mode == PPM_ALPHA_MASK) return alpha >= desc->alpha_cutoff ? 1.0f : 0.0f;
+    return ppmi_clampf(alpha, 0.0f, 1.0f);
+}
+
+ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo)
+{
+    const ppmi_material *material = surface->material;
+    if (!material->emits) return vec3_splat(0.0f);
+    if (!material->desc.double_sided && vec3_dot(wo, surface->ng) <= 0.0f) return vec3_splat(0.0f);
+    ppmi_vec3 radiance = vec3_load(material->desc.emission);
+    const ppm_texture *texture = &material->desc.emission_texture;
+    if (texture->image > 0) {
+        const ppmi_texel texel =
+            ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
+        radiance = vec3_mul(radiance,
+                            vec3(fmaxf(texel.r, 0.0f), fmaxf(texel.g, 0.0f), fmaxf(texel.b, 0.0f)));
+    }
+    return radiance;
+}

@@ -1,0 +1,16 @@
+/* Texture lookup. */
+#ifndef PPMI_SHADING_TEXTURE_H
+#define PPMI_SHADING_TEXTURE_H
+
+#include "math/sampling.h"
+#include "scene/scene.h"
+
+typedef struct ppmi_texel {
+    float r, g, b, a;
+} ppmi_texel;
+
+/* Colour or data at uv (origin top left, v down), linear; images without alpha give 1, grey ones
+ * the grey in r, g and b. texture->image must not be 0. */
+ppmi_texel ppmi_texture_lookup(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv);
+
+#endif
