@@ -1,7 +1,4 @@
 # cmake --install: program, library, headers, pkg-config file, CMake package.
-if(NOT TARGET ppm-render)
-    return()
-endif()
 include(CMakePackageConfigHelpers)
 
 install(TARGETS ppm-render RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

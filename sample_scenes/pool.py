@@ -21,7 +21,7 @@ import scene_kit as kit
 HALF_X, HALF_Y = 2.0, 3.0
 DEPTH = 1.4
 DECK = 0.15
-COPING = 1.5  # width of the deck around the basin
+COPING = 2.0  # width of the deck around the basin
 
 # Each wave: length (m), amplitude (m), heading (degrees), phase (degrees). Slopes of about 5 to
 # 8 % and crests that focus the sun about as deep as the floor, as after a swimmer's turn.
@@ -151,7 +151,7 @@ def main():
     add_water()
     add_sky()
     add_sun()
-    kit.add_camera((0.75, -5.2, 3.2), (0.1, -0.45, -0.45), 46.0)
+    kit.add_camera((0.75, -5.2, 3.2), (0.13, -0.5, -0.52), 46.0)
     kit.finish(__file__)
 
 

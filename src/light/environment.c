@@ -38,7 +38,7 @@ static ppmi_vec3 lookup(const ppmi_environment_map *map, ppmi_vec2 uv)
 {
     const ppmi_texel texel = ppmi_texture_lookup(map->scene, &map->texture, uv);
     return vec3_mul(map->radiance,
-                    vec3(fmaxf(texel.r, 0.0f), fmaxf(texel.g, 0.0f), fmaxf(texel.b, 0.0f)));
+                    vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f), ppmi_max(texel.b, 0.0f)));
 }
 
 /* Solid angle of a cell in a row. */
@@ -46,7 +46,7 @@ static float cell_solid_angle(const ppmi_environment_map *map, uint32_t row)
 {
     const float top = cosf(PPMI_PI * (float)row / (float)map->rows);
     const float bottom = cosf(PPMI_PI * (float)(row + 1) / (float)map->rows);
-    return fmaxf(top - bottom, 0.0f) * 2.0f * PPMI_PI / (float)map->columns;
+    return ppmi_max(top - bottom, 0.0f) * 2.0f * PPMI_PI / (float)map->columns;
 }
 
 /* Mean radiance over a cell, by as many lookups a side as the image has pixels there (at most 8).
@@ -149,7 +149,7 @@ float ppmi_environment_map_sample(const ppmi_environment_map *map, double u_cell
     const ppmi_vec2 uv = {((float)column + u) / (float)map->columns,
                           acosf(cos_theta) * PPMI_INV_PI};
     *out_direction = vec3_normalize(uv_to_direction(map, uv));
-    return ppmi_alias_probability(&map->cells, cell) / fmaxf(cell_solid_angle(map, row), 1e-20f);
+    return ppmi_alias_probability(&map->cells, cell) / ppmi_max(cell_solid_angle(map, row), 1e-20f);
 }
 
 float ppmi_environment_map_pdf(const ppmi_environment_map *map, ppmi_vec3 direction)
@@ -161,5 +161,5 @@ float ppmi_environment_map_pdf(const ppmi_environment_map *map, ppmi_vec3 direct
     column = column < map->columns ? column : map->columns - 1;
     row = row < map->rows ? row : map->rows - 1;
     return ppmi_alias_probability(&map->cells, row * map->columns + column) /
-           fmaxf(cell_solid_angle(map, row), 1e-20f);
+           ppmi_max(cell_solid_angle(map, row), 1e-20f);
 }

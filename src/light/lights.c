@@ -289,7 +289,7 @@ static float environment_share(const ppmi_lights *lights)
 
 static float spot_falloff(const ppmi_punctual *light, float cosine)
 {
-    const float range = fmaxf(light->cos_inner - light->cos_outer, 1e-6f);
+    const float range = ppmi_max(light->cos_inner - light->cos_outer, 1e-6f);
     const float x = ppmi_clampf((cosine - light->cos_outer) / range, 0.0f, 1.0f);
     return x * x;
 }
@@ -332,7 +332,7 @@ static bool sample_triangle(const ppmi_lights *lights, const emitter *e, ppmi_ve
     if (!(cosine > 1e-6f)) return false;
     sample->radiance = ppmi_surface_emission(lights->scene, &surface, vec3_neg(sample->wi));
     /* the way is clear up to the error of the point on the light, seen along the ray */
-    sample->distance = distance - fminf(surface.error / cosine * 2.0f, 0.01f * distance);
+    sample->distance = distance - ppmi_min(surface.error / cosine * 2.0f, 0.01f * distance);
     sample->pdf *= distance2 / (cosine * e->area);
     return !vec3_is_black(sample->radiance);
 }
@@ -394,7 +394,7 @@ float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_v
 {
     const ppmi_environment_map *map = &lights->environment;
     const float pdf = ppmi_environment_map_is_constant(map)
-                          ? fmaxf(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI
+                          ? ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI
                           : ppmi_environment_map_pdf(map, wi);
     return environment_share(lights) * pdf;
 }
@@ -468,7 +468,7 @@ static bool emit_spot(const ppmi_punctual *light, const float u[4], ppmi_emissio
         cosine = light->cos_inner + (x - ramp);
     }
     const ppmi_frame frame = ppmi_frame_from_normal(light->direction);
-    const ppmi_vec3 local = ppmi_direction_at(fminf(cosine, 1.0f), u[3]);
+    const ppmi_vec3 local = ppmi_direction_at(ppmi_min(cosine, 1.0f), u[3]);
     emission->ray = (ppmi_ray){.origin = light->position,
                                .t_max = INFINITY,
                                .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};

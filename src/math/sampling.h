@@ -28,13 +28,13 @@ static inline ppmi_vec2 ppmi_sample_disk(float u, float v)
 static inline ppmi_vec3 ppmi_sample_cosine_hemisphere(float u, float v)
 {
     const ppmi_vec2 d = ppmi_sample_disk(u, v);
-    return vec3(d.x, d.y, sqrtf(fmaxf(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
+    return vec3(d.x, d.y, sqrtf(ppmi_max(0.0f, 1.0f - d.x * d.x - d.y * d.y)));
 }
 
 /* The direction with the given cosine to +z, at azimuth 2 pi v. */
 static inline ppmi_vec3 ppmi_direction_at(float cos_theta, float v)
 {
-    const float sin_theta = sqrtf(fmaxf(0.0f, 1.0f - cos_theta * cos_theta));
+    const float sin_theta = sqrtf(ppmi_max(0.0f, 1.0f - cos_theta * cos_theta));
     const float phi = 2.0f * PPMI_PI * v;
     return vec3(sin_theta * cosf(phi), sin_theta * sinf(phi), cos_theta);
 }

@@ -9,6 +9,18 @@
 #define PPMI_PI 3.14159265358979323846f
 #define PPMI_INV_PI 0.31830988618379067154f
 
+/* One instruction each, where fminf and fmaxf are calls because of what they promise for NaN: here
+ * the second argument wins when one is not a number. */
+static inline float ppmi_min(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float ppmi_max(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 typedef struct ppmi_vec3 {
     float x, y, z;
 } ppmi_vec3;
@@ -100,7 +112,7 @@ static inline ppmi_vec3 vec3_normalize(ppmi_vec3 a)
 
 static inline float vec3_max_component(ppmi_vec3 a)
 {
-    return fmaxf(a.x, fmaxf(a.y, a.z));
+    return ppmi_max(a.x, ppmi_max(a.y, a.z));
 }
 
 static inline float vec3_mean(ppmi_vec3 a)
@@ -111,7 +123,7 @@ static inline float vec3_mean(ppmi_vec3 a)
 /* Largest absolute value of the components. */
 static inline float vec3_max_abs(ppmi_vec3 a)
 {
-    return fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z)));
+    return ppmi_max(fabsf(a.x), ppmi_max(fabsf(a.y), fabsf(a.z)));
 }
 
 static inline bool vec3_is_finite(ppmi_vec3 a)
@@ -132,7 +144,7 @@ static inline float vec3_luminance(ppmi_vec3 c)
 
 static inline float ppmi_clampf(float x, float low, float high)
 {
-    return fminf(fmaxf(x, low), high);
+    return ppmi_min(ppmi_max(x, low), high);
 }
 
 static inline float ppmi_sqr(float x)

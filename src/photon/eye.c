@@ -26,7 +26,7 @@ static void add(eye_state *state, ppmi_vec3 throughput, ppmi_vec3 radiance)
 static float footprint(const eye_state *state, const ppmi_bsdf *bsdf)
 {
     const float cosine = fabsf(vec3_dot(state->ray.direction, bsdf->ng));
-    return state->cone_width / sqrtf(fmaxf(cosine, 0.1f));
+    return state->cone_width / sqrtf(ppmi_max(cosine, 0.1f));
 }
 
 static void record(const eye_state *state, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
@@ -102,7 +102,7 @@ static bool go_on(ppmi_walker *walker, eye_state *state, const ppmi_vertex *vert
 static bool survives_roulette(ppmi_walker *walker, eye_state *state, uint32_t depth)
 {
     if (depth < ROULETTE_DEPTH) return true;
-    const float survival = fminf(1.0f, vec3_max_component(state->throughput));
+    const float survival = ppmi_min(1.0f, vec3_max_component(state->throughput));
     if (ppmi_rng_float(&walker->rng) >= survival) return false;
     state->throughput = vec3_scale(state->throughput, 1.0f / survival);
     state->light_throughput = vec3_scale(state->light_throughput, 1.0f / survival);

@@ -49,7 +49,7 @@ void ppmi_visible_points_deinit(ppm_context *context, ppmi_visible_points *point
 static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
     const float geometric = vec3_dot(wi, bsdf->ng);
-    return geometric > 1e-4f ? fminf(ppmi_bsdf_cosine(bsdf, wi) / geometric, 1e2f) : 0.0f;
+    return geometric > 1e-4f ? ppmi_min(ppmi_bsdf_cosine(bsdf, wi) / geometric, 1e2f) : 0.0f;
 }
 
 static void add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,

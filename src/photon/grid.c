@@ -26,7 +26,7 @@ static inline uint32_t coordinate(float x, float origin, float inverse_cell)
 {
     const float scaled = (x - origin) * inverse_cell;
     const float last = (float)((1u << PPMI_GRID_BITS) - 1u);
-    return (uint32_t)fminf(fmaxf(scaled, 0.0f), last);
+    return (uint32_t)ppmi_min(ppmi_max(scaled, 0.0f), last);
 }
 
 static inline uint64_t photon_code(const ppmi_photon_grid *grid, ppmi_vec3 p)
@@ -170,10 +170,10 @@ static void measure(ppmi_photon_grid *grid, const ppmi_photon *photons)
     float side = 0.0f;
     grid->magnitude = 0.0f;
     for (int k = 0; k < 3; k++) {
-        side = fmaxf(side, high[k] - low[k]);
-        grid->magnitude = fmaxf(grid->magnitude, fmaxf(fabsf(low[k]), fabsf(high[k])));
+        side = ppmi_max(side, high[k] - low[k]);
+        grid->magnitude = ppmi_max(grid->magnitude, ppmi_max(fabsf(low[k]), fabsf(high[k])));
     }
-    side = fmaxf(side * 1.0001f, fmaxf(grid->magnitude * 1e-6f, 1e-30f));
+    side = ppmi_max(side * 1.0001f, ppmi_max(grid->magnitude * 1e-6f, 1e-30f));
     grid->origin = vec3(low[0], low[1], low[2]);
     grid->cell = side / (float)(1u << PPMI_GRID_BITS);
     grid->inverse_cell = 1.0f / grid->cell;
@@ -349,8 +349,8 @@ static bool axis_range(float p, float radius, float origin, float inverse_cell, 
     const float low = (p - radius - origin) * inverse_cell;
     const float high = (p + radius - origin) * inverse_cell;
     if (!(high >= 0.0f) || !(low < extent)) return false;
-    *first = (uint32_t)fmaxf(low, 0.0f) >> level;
-    *last = (uint32_t)fminf(high, extent - 1.0f) >> level;
+    *first = (uint32_t)ppmi_max(low, 0.0f) >> level;
+    *last = (uint32_t)ppmi_min(high, extent - 1.0f) >> level;
     return true;
 }
 

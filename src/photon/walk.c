@@ -23,7 +23,7 @@ static float shading_normal_factor(const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_vec
 {
     const float numerator = fabsf(vec3_dot(wo, bsdf->frame.n) * vec3_dot(wi, bsdf->ng));
     const float denominator = fabsf(vec3_dot(wo, bsdf->ng) * vec3_dot(wi, bsdf->frame.n));
-    return denominator > 1e-8f ? fminf(numerator / denominator, 1e2f) : 1.0f;
+    return denominator > 1e-8f ? ppmi_min(numerator / denominator, 1e2f) : 1.0f;
 }
 
 /* One bounce; false when the photon ends. Roulette keeps the power of survivors where it was. */
@@ -39,7 +39,7 @@ static bool bounce(ppmi_walker *walker, const ppmi_bsdf *bsdf, const ppmi_surfac
     }
     const float factor = shading_normal_factor(bsdf, vec3_neg(ray->direction), sample.wi);
     const ppmi_vec3 next = vec3_scale(vec3_mul(*power, sample.weight), factor);
-    const float survival = fminf(1.0f, vec3_max_component(next) / vec3_max_component(*power));
+    const float survival = ppmi_min(1.0f, vec3_max_component(next) / vec3_max_component(*power));
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
     *power = vec3_scale(next, 1.0f / survival);
     *ray = ppmi_surface_ray(surface, sample.wi);

@@ -41,7 +41,7 @@ static ppm_status path_create(const ppmi_job *job, void **out_state)
 static bool survives(ppmi_walker *walker, ppmi_vec3 *throughput, uint32_t depth)
 {
     if (depth < ROULETTE_DEPTH) return true;
-    const float survival = fminf(1.0f, vec3_max_component(*throughput));
+    const float survival = ppmi_min(1.0f, vec3_max_component(*throughput));
     if (ppmi_rng_float(&walker->rng) >= survival) return false;
     *throughput = vec3_scale(*throughput, 1.0f / survival);
     return true;

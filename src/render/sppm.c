@@ -107,7 +107,7 @@ static float unit_at(const ppmi_job *job, const sppm_state *state,
                      const ppmi_visible_points *points, uint32_t slot, float scale)
 {
     if (job->options->radius_m > 0.0f) return job->options->radius_m;
-    return fminf(points->footprint[slot], state->largest_radius / scale);
+    return ppmi_min(points->footprint[slot], state->largest_radius / scale);
 }
 
 /* ---- photons --------------------------------------------------------------------------------- */
@@ -174,11 +174,11 @@ static float measure_first_radius(const ppmi_job *job, const sppm_state *state)
             second = smallest;
             smallest = footprint;
         } else {
-            second = fminf(second, footprint);
+            second = ppmi_min(second, footprint);
         }
     }
     const float radius = first_scale * (isfinite(second) ? second : smallest);
-    return fminf(radius, state->largest_radius);
+    return ppmi_min(radius, state->largest_radius);
 }
 
 /* Doubles the pixel's radius until the pilot's photons suffice. The pilot's photons are not used

@@ -92,8 +92,8 @@ static float framing_distance(ppmi_vec3 half, ppmi_vec3 right, ppmi_vec3 up, ppm
         const ppmi_vec3 p =
             vec3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
         const float depth = vec3_dot(p, back);
-        distance = fmaxf(distance, depth + fabsf(vec3_dot(p, right)) / tan_x);
-        distance = fmaxf(distance, depth + fabsf(vec3_dot(p, up)) / tan_y);
+        distance = ppmi_max(distance, depth + fabsf(vec3_dot(p, right)) / tan_x);
+        distance = ppmi_max(distance, depth + fabsf(vec3_dot(p, up)) / tan_y);
     }
     return distance;
 }
@@ -116,7 +116,7 @@ ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect, ppm_came
     const ppmi_vec3 up = vec3_cross(back, right);
     const float tan_y = tanf(0.5f * y_fov_rad);
     const float distance = framing_distance(half, right, up, back, tan_y * aspect, tan_y);
-    const ppmi_vec3 origin = vec3_mad(center, back, fmaxf(distance, 1e-6f));
+    const ppmi_vec3 origin = vec3_mad(center, back, ppmi_max(distance, 1e-6f));
     ppm_camera_desc desc = {
         .size = sizeof desc,
         .name = "(framing)",

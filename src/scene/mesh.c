@@ -78,11 +78,11 @@ static void keep_triangles(const ppm_primitive_desc *desc, ppmi_primitive *primi
         memcpy(primitive->indices + 3 * (size_t)kept++, triangle, 3 * sizeof *triangle);
         for (uint32_t k = 0; k < 3; k++) {
             mesh->bounds_min =
-                vec3(fminf(mesh->bounds_min.x, p[k].x), fminf(mesh->bounds_min.y, p[k].y),
-                     fminf(mesh->bounds_min.z, p[k].z));
+                vec3(ppmi_min(mesh->bounds_min.x, p[k].x), ppmi_min(mesh->bounds_min.y, p[k].y),
+                     ppmi_min(mesh->bounds_min.z, p[k].z));
             mesh->bounds_max =
-                vec3(fmaxf(mesh->bounds_max.x, p[k].x), fmaxf(mesh->bounds_max.y, p[k].y),
-                     fmaxf(mesh->bounds_max.z, p[k].z));
+                vec3(ppmi_max(mesh->bounds_max.x, p[k].x), ppmi_max(mesh->bounds_max.y, p[k].y),
+                     ppmi_max(mesh->bounds_max.z, p[k].z));
         }
     }
     primitive->triangle_count = kept;
@@ -242,7 +242,7 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
 static ppmi_transform normal_transform(const ppmi_transform *to_world, float determinant)
 {
     ppmi_transform m = ppmi_transform_cofactors(to_world);
-    const float size = fmaxf(vec3_max_abs(m.x), fmaxf(vec3_max_abs(m.y), vec3_max_abs(m.z)));
+    const float size = ppmi_max(vec3_max_abs(m.x), ppmi_max(vec3_max_abs(m.y), vec3_max_abs(m.z)));
     const float scale = copysignf(1.0f / size, determinant);
     m.x = vec3_scale(m.x, scale);
     m.y = vec3_scale(m.y, scale);

@@ -246,12 +246,12 @@ static ppmi_vec3 corner(ppmi_vec3 low, ppmi_vec3 high, uint32_t i)
 
 static ppmi_vec3 vec3_min(ppmi_vec3 a, ppmi_vec3 b)
 {
-    return vec3(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z));
+    return vec3(ppmi_min(a.x, b.x), ppmi_min(a.y, b.y), ppmi_min(a.z, b.z));
 }
 
 static ppmi_vec3 vec3_max(ppmi_vec3 a, ppmi_vec3 b)
 {
-    return vec3(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z));
+    return vec3(ppmi_max(a.x, b.x), ppmi_max(a.y, b.y), ppmi_max(a.z, b.z));
 }
 
 /* Small meshes, and those whose instance is turned, are measured vertex by vertex: the box around a

@@ -7,7 +7,7 @@
 static ppmi_albedo_pair integrate(float alpha, float cosine)
 {
     const uint32_t sample_count = 1024;
-    const ppmi_vec3 wo = vec3(sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
+    const ppmi_vec3 wo = vec3(sqrtf(ppmi_max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
     double a = 0.0, b = 0.0;
     for (uint32_t i = 0; i < sample_count; i++) {
         const ppmi_sample4 sample = ppmi_sobol4(i, 0, 0);
@@ -52,7 +52,7 @@ void ppmi_albedo_table_init(ppmi_albedo_table *table)
         const float alpha = roughness * roughness;
         for (int c = 0; c < PPMI_ALBEDO_COSINES; c++) {
             /* at exactly 0 nothing is visible: the limit is taken close by */
-            const float cosine = fmaxf((float)c / (PPMI_ALBEDO_COSINES - 1), 1e-3f);
+            const float cosine = ppmi_max((float)c / (PPMI_ALBEDO_COSINES - 1), 1e-3f);
             table->directional[r][c] =
                 alpha < PPMI_SMOOTH_ALPHA ? mirror(cosine) : integrate(alpha, cosine);
         }

@@ -24,7 +24,7 @@ static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
  * comes close to. */
 static float index_of(float ior)
 {
-    return ior == 0.0f ? 1e4f : fmaxf(ior, 1.0f);
+    return ior == 0.0f ? 1e4f : ppmi_max(ior, 1.0f);
 }
 
 static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
@@ -36,7 +36,7 @@ static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     bsdf->coat_f90 = point->specular;
     const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
     const float left_average = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
-    const float coat = opaque * (1.0f - point->metallic) * left_o / fmaxf(left_average, 1e-4f);
+    const float coat = opaque * (1.0f - point->metallic) * left_o / ppmi_max(left_average, 1e-4f);
     bsdf->coat_base = vec3_scale(point->base_color, coat);
 
     /* Kulla and Conty: F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) */
@@ -48,7 +48,7 @@ static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                                     f.y * f.y * e_average / (1.0f - f.y * lost_average),
                                     f.z * f.z * e_average / (1.0f - f.z * lost_average));
         const float metal = opaque * point->metallic * (1.0f - at_o.a - at_o.b) / lost_average;
-        bsdf->metal_base = vec3_scale(f_ms, fmaxf(metal, 0.0f));
+        bsdf->metal_base = vec3_scale(f_ms, ppmi_max(metal, 0.0f));
     }
 }
 
@@ -108,16 +108,16 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     const ppmi_vec3 ns = is_outside ? point->ns : vec3_neg(point->ns);
     bsdf->frame = ppmi_frame_from_normal(visible_normal(ns, wo));
     bsdf->wo = ppmi_frame_to_local(&bsdf->frame, wo);
-    bsdf->wo.z = fmaxf(bsdf->wo.z, 1e-4f);
+    bsdf->wo.z = ppmi_max(bsdf->wo.z, 1e-4f);
     bsdf->roughness = point->roughness;
     bsdf->alpha = point->roughness * point->roughness;
 
     const float index = index_of(point->ior);
     const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
     const ppmi_vec3 dielectric_f0 =
-        vec3(fminf(r0 * point->specular_color.x, 1.0f) * point->specular,
-             fminf(r0 * point->specular_color.y, 1.0f) * point->specular,
-             fminf(r0 * point->specular_color.z, 1.0f) * point->specular);
+        vec3(ppmi_min(r0 * point->specular_color.x, 1.0f) * point->specular,
+             ppmi_min(r0 * point->specular_color.y, 1.0f) * point->specular,
+             ppmi_min(r0 * point->specular_color.z, 1.0f) * point->specular);
     const float opaque = 1.0f - point->transmission * (1.0f - point->metallic);
     /* the dielectric's share of the opaque part, with its metallic blend */
     const float metal = opaque > 0.0f ? point->metallic / opaque : 0.0f;
@@ -139,7 +139,7 @@ static ppmi_vec3 wide_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albed
     }
     const ppmi_albedo_pair at_i = ppmi_albedo_directional(albedo, bsdf->roughness, cos_i);
     const float coat = 1.0f - pair_value(at_i, bsdf->coat_f0, bsdf->coat_f90);
-    const float metal = fmaxf(1.0f - at_i.a - at_i.b, 0.0f);
+    const float metal = ppmi_max(1.0f - at_i.a - at_i.b, 0.0f);
     return vec3_scale(vec3_mad(vec3_scale(bsdf->coat_base, coat), bsdf->metal_base, metal),
                       PPMI_INV_PI);
 }
@@ -199,7 +199,7 @@ static float glass_jacobian(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 h)
     if (wi.z > 0.0f) return 1.0f / (4.0f * vec3_dot(wi, h));
     const float denominator = vec3_dot(bsdf->wo, h) + bsdf->eta * vec3_dot(wi, h);
     return bsdf->eta * bsdf->eta * fabsf(vec3_dot(wi, h)) /
-           fmaxf(denominator * denominator, 1e-12f);
+           ppmi_max(denominator * denominator, 1e-12f);
 }
 
 static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)

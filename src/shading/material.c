@@ -28,7 +28,7 @@ static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surfa
     const float y = (2.0f * texel.g - 1.0f) * desc->normal_scale;
     const float z = 2.0f * texel.b - 1.0f;
     const ppmi_vec3 n = vec3_normalize(
-        vec3_mad(vec3_mad(vec3_scale(tangent, x), bitangent, y), surface->ns, fmaxf(z, 1e-3f)));
+        vec3_mad(vec3_mad(vec3_scale(tangent, x), bitangent, y), surface->ns, ppmi_max(z, 1e-3f)));
     return vec3_dot(n, surface->ng) > 0.0f && vec3_is_finite(n) ? n : surface->ns;
 }
 
@@ -49,9 +49,9 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
         .roughness = unit(desc->roughness * rough.g),
         .ior = desc->ior,
         .specular = unit(desc->specular * lookup(scene, surface, &desc->specular_texture).a),
-        .specular_color = {fmaxf(desc->specular_color[0] * specular_color.r, 0.0f),
-                           fmaxf(desc->specular_color[1] * specular_color.g, 0.0f),
-                           fmaxf(desc->specular_color[2] * specular_color.b, 0.0f)},
+        .specular_color = {ppmi_max(desc->specular_color[0] * specular_color.r, 0.0f),
+                           ppmi_max(desc->specular_color[1] * specular_color.g, 0.0f),
+                           ppmi_max(desc->specular_color[2] * specular_color.b, 0.0f)},
         .transmission =
             unit(desc->transmission * lookup(scene, surface, &desc->transmission_texture).r),
         .is_thin = desc->transmission_kind == PPM_TRANSMISSION_THIN,

@@ -24,7 +24,7 @@ static inline float ppmi_ggx_d(float alpha, float cos_h)
 static inline float ppmi_ggx_lambda(float alpha, float cos_theta)
 {
     const float cos2 = cos_theta * cos_theta;
-    const float tan2 = fmaxf(0.0f, 1.0f - cos2) / fmaxf(cos2, 1e-12f);
+    const float tan2 = ppmi_max(0.0f, 1.0f - cos2) / ppmi_max(cos2, 1e-12f);
     return 0.5f * (sqrtf(1.0f + alpha * alpha * tan2) - 1.0f);
 }
 
@@ -56,7 +56,7 @@ static inline ppmi_vec3 ppmi_ggx_sample_visible(float alpha, ppmi_vec3 wo, float
     const float sin_theta = sqrtf(ppmi_clampf(1.0f - z * z, 0.0f, 1.0f));
     const ppmi_vec3 cap = vec3(sin_theta * cosf(phi), sin_theta * sinf(phi), z);
     const ppmi_vec3 h = vec3_add(cap, w);
-    return vec3_normalize(vec3(alpha * h.x, alpha * h.y, fmaxf(h.z, 1e-9f)));
+    return vec3_normalize(vec3(alpha * h.x, alpha * h.y, ppmi_max(h.z, 1e-9f)));
 }
 
 /* Fresnel reflectance of a dielectric, unpolarised. eta: index behind the surface by the one in
@@ -64,7 +64,7 @@ static inline ppmi_vec3 ppmi_ggx_sample_visible(float alpha, ppmi_vec3 wo, float
  */
 static inline float ppmi_fresnel_dielectric(float cos_i, float eta, float *out_cos_t)
 {
-    const float sin2_t = fmaxf(0.0f, 1.0f - cos_i * cos_i) / (eta * eta);
+    const float sin2_t = ppmi_max(0.0f, 1.0f - cos_i * cos_i) / (eta * eta);
     if (sin2_t >= 1.0f) {
         *out_cos_t = 0.0f;
         return 1.0f;

@@ -57,8 +57,8 @@ void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_sur
 
     const ppmi_vec3 ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
     surface->ng = surface->instance->is_mirrored ? vec3_neg(ng) : ng;
-    const float magnitude = fmaxf(fmaxf(vec3_max_abs(a), vec3_max_abs(b)),
-                                  fmaxf(vec3_max_abs(c), vec3_max_abs(to_world->origin)));
+    const float magnitude = ppmi_max(ppmi_max(vec3_max_abs(a), vec3_max_abs(b)),
+                                  ppmi_max(vec3_max_abs(c), vec3_max_abs(to_world->origin)));
     surface->error = error_ulps * FLT_EPSILON * magnitude;
     surface->ns = shading_normal(surface, triangle);
 }
@@ -167,7 +167,7 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
         const ppmi_texel texel =
             ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
         radiance = vec3_mul(radiance,
-                            vec3(fmaxf(texel.r, 0.0f), fmaxf(texel.g, 0.0f), fmaxf(texel.b, 0.0f)));
+                            vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f), ppmi_max(texel.b, 0.0f)));
     }
     return radiance;
 }

@@ -1,4 +1,5 @@
 /* Stopping a render from outside, and watching its pictures while it runs. */
+#include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -16,6 +17,12 @@
 #include "imageio/imageio.h"
 
 #define ENDLESS "-s 32x16 -n 1000000000 -p 4096 "
+
+static void take_a_moment(void)
+{
+    const struct timespec moment = {.tv_nsec = 2000000};
+    nanosleep(&moment, NULL);
+}
 
 static void assert_complete(const char *path, uint32_t width, uint32_t height)
 {
@@ -56,6 +63,26 @@ static void a_termination_leaves_the_picture_so_far(void **state)
 {
     (void)state;
     assert_stops_with_pictures(SIGTERM, "");
+}
+
+/* The scene is a pipe that nobody fills, so that reading it never ends. */
+static void a_signal_while_the_scene_is_read_ends_at_once(void **state)
+{
+    (void)state;
+    assert_int_equal(mkfifo("pipe.gltf", 0666), 0);
+    test_process process;
+    start_program(&process, "-o pipe.exr pipe.gltf");
+    int pipe_end = -1;
+    while ((pipe_end = open("pipe.gltf", O_WRONLY | O_NONBLOCK)) < 0) { /* until it is read */
+        if (kill(process.pid, 0) != 0) fail_msg("ended early:\n%s", process.err);
+        take_a_moment();
+    }
+    kill(process.pid, SIGINT);
+    const int status = wait_for_end(&process);
+    close(pipe_end);
+    if (status != 130) fail_msg("status %d: %s", status, process.err);
+    assert_contains(process.err, "there is no picture");
+    assert_int_equal(access("pipe.exr", F_OK), -1);
 }
 
 /* A first pass of seconds, so that it cannot end between the two signals. */
@@ -104,10 +131,9 @@ static void one_lost_output_does_not_cost_the_others(void **state)
 /* Waits for a file as a viewer would, without help from the program. */
 static void wait_for_file(const test_process *process, const char *path)
 {
-    const struct timespec a_moment = {.tv_nsec = 2000000};
     while (access(path, F_OK) != 0) {
         if (kill(process->pid, 0) != 0) fail_msg("no %s:\n%s", path, process->err);
-        nanosleep(&a_moment, NULL);
+        take_a_moment();
     }
 }
 
@@ -131,6 +157,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_interrupt_leaves_the_picture_so_far),
         cmocka_unit_test(a_termination_leaves_the_picture_so_far),
+        cmocka_unit_test(a_signal_while_the_scene_is_read_ends_at_once),
         cmocka_unit_test(a_second_signal_ends_at_once),
         cmocka_unit_test(a_signal_during_the_first_pass_lets_it_finish),
         cmocka_unit_test(one_lost_output_does_not_cost_the_others),

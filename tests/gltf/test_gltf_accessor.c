@@ -1,0 +1,447 @@
+/* importers/gltf/gltf_accessor.c, gltf_triangles.c, gltf_compact.c and gltf_mesh.c */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "gltf_fixture.h"
+
+#define POSITION "'attributes':{'POSITION':0}"
+
+static const ppmi_primitive *first(const gltf_fixture *f)
+{
+    assert_int_equal(f->scene->mesh_count, 1);
+    return &f->scene->meshes[0].primitives[0];
+}
+
+static void assert_floats(const float *got, const float *expected, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (!(fabsf(got[i] - expected[i]) < 1e-6f)) {
+            fail_msg("value %zu is %g, expected %g", i, (double)got[i], (double)expected[i]);
+        }
+    }
+}
+
+/* ---- component types ------------------------------------------------------------------------- */
+
+static void positions_of_every_component_type_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float f32[] = {0, 0, 0, 3, 0, 0, 0, 5, 0};
+    static const int8_t i8[] = {0, 0, 0, 127, 0, 0, 0, -127, 0};
+    static const uint8_t u8[] = {0, 0, 0, 255, 0, 0, 0, 51, 0};
+    static const int16_t i16[] = {0, 0, 0, 32767, 0, 0, 0, -32767, 0};
+    static const uint16_t u16[] = {0, 0, 0, 65535, 0, 0, 0, 13107, 0};
+    static const struct {
+        int type;
+        const char *normalized;
+        const void *bytes;
+        size_t size;
+        float expected[9];
+    } cases[] = {
+        {5126, "false", f32, sizeof f32, {0, 0, 0, 3, 0, 0, 0, 5, 0}},
+        {5120, "false", i8, sizeof i8, {0, 0, 0, 127, 0, 0, 0, -127, 0}},
+        {5120, "true", i8, sizeof i8, {0, 0, 0, 1, 0, 0, 0, -1, 0}},
+        {5121, "false", u8, sizeof u8, {0, 0, 0, 255, 0, 0, 0, 51, 0}},
+        {5121, "true", u8, sizeof u8, {0, 0, 0, 1, 0, 0, 0, 0.2f, 0}},
+        {5122, "false", i16, sizeof i16, {0, 0, 0, 32767, 0, 0, 0, -32767, 0}},
+        {5122, "true", i16, sizeof i16, {0, 0, 0, 1, 0, 0, 0, -1, 0}},
+        {5123, "false", u16, sizeof u16, {0, 0, 0, 65535, 0, 0, 0, 13107, 0}},
+        {5123, "true", u16, sizeof u16, {0, 0, 0, 1, 0, 0, 0, 0.2f, 0}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char accessor[160], view[80];
+        snprintf(accessor, sizeof accessor,
+                 "{'bufferView':0,'componentType':%d,'normalized':%s,'count':3,'type':'VEC3'}",
+                 cases[i].type, cases[i].normalized);
+        snprintf(view, sizeof view, "{'buffer':0,'byteLength':%zu}", cases[i].size);
+        assert_gltf_status(
+            f, gltf_import_primitive(f, POSITION, accessor, view, cases[i].bytes, cases[i].size),
+            PPM_STATUS_OK);
+        assert_floats(first(f)->positions, cases[i].expected, 9);
+        gltf_reset(f);
+    }
+}
+
+static void the_lowest_signed_integer_is_minus_one(void **state)
+{
+    gltf_fixture *f = *state;
+    static const int8_t i8[] = {0, 0, 0, -128, 0, 0, 0, 127, 0};
+    assert_gltf_status(f,
+                       gltf_import_primitive(f, POSITION,
+                                             "{'bufferView':0,'componentType':5120,'normalized':true,"
+                                             "'count':3,'type':'VEC3'}",
+                                             "{'buffer':0,'byteLength':9}", i8, sizeof i8),
+                       PPM_STATUS_OK);
+    assert_float_equal(first(f)->positions[3], -1.0f, 0.0f);
+}
+
+static void indices_of_every_component_type_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    struct {
+        float positions[12];
+        uint32_t u32[3];
+        uint16_t u16[3];
+        uint8_t u8[3];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {3, 2, 0}, {3, 2, 0}, {3, 2, 0}};
+    static const int types[] = {5125, 5123, 5121};
+    static const int offsets[] = {48, 60, 66};
+    for (int i = 0; i < 3; ++i) {
+        char accessors[240];
+        snprintf(accessors, sizeof accessors,
+                 "{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
+                 "{'bufferView':0,'byteOffset':%d,'componentType':%d,'count':3,'type':'SCALAR'}",
+                 offsets[i], types[i]);
+        assert_gltf_status(f,
+                           gltf_import_primitive(f, POSITION ",'indices':1", accessors,
+                                                 "{'buffer':0,'byteLength':69}", &data, 69),
+                           PPM_STATUS_OK);
+        /* vertex 1 is not used and dropped: 0 2 3 are 0 1 2 now */
+        static const float kept[] = {0, 0, 0, 0, 1, 0, 1, 1, 0};
+        static const uint32_t expected[] = {2, 1, 0};
+        assert_int_equal(first(f)->vertex_count, 3);
+        assert_floats(first(f)->positions, kept, 9);
+        assert_memory_equal(first(f)->indices, expected, sizeof expected);
+        gltf_reset(f);
+    }
+}
+
+static void interleaved_attributes_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        float position[3], normal[3];
+        uint16_t uv[2];
+        uint8_t color[4];
+    } vertices[3] = {{{0, 0, 0}, {0, 0, 1}, {0, 0}, {255, 0, 0, 255}},
+                     {{1, 0, 0}, {0, 0, 1}, {65535, 0}, {0, 255, 0, 51}},
+                     {{0, 1, 0}, {0, 0, 1}, {0, 13107}, {0, 0, 255, 0}}};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(
+            f, "'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_3':2,'COLOR_0':3}",
+            "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+            "{'bufferView':0,'byteOffset':12,'componentType':5126,'count':3,'type':'VEC3'},"
+            "{'bufferView':0,'byteOffset':24,'componentType':5123,'normalized':true,'count':3,"
+            "'type':'VEC2'},"
+            "{'bufferView':0,'byteOffset':28,'componentType':5121,'normalized':true,'count':3,"
+            "'type':'VEC4'}",
+            "{'buffer':0,'byteLength':96,'byteStride':32}", vertices, sizeof vertices),
+        PPM_STATUS_OK);
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[] = {0, 0, 1, 0, 0, 1};
+    static const float uvs[] = {0, 0, 1, 0, 0, 0.2f};
+    static const float colors[] = {1, 0, 0, 1, 0, 1, 0, 0.2f, 0, 0, 1, 0};
+    assert_floats(first(f)->positions, positions, 9);
+    assert_floats(first(f)->normals, normals, 6);
+    assert_floats(first(f)->uvs[3], uvs, 6);
+    assert_floats(first(f)->colors, colors, 12);
+    assert_null(first(f)->uvs[0]);
+}
+
+static void colors_of_three_components_are_opaque(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float data[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, .1f, .2f, .3f, .4f, .5f, .6f, .7f, .8f, .9f};
+    assert_gltf_status(f,
+                       gltf_import_primitive(
+                           f, "'attributes':{'POSITION':0,'COLOR_0':1}",
+                           "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                           "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
+                           "'type':'VEC3'}",
+                           "{'buffer':0,'byteLength':72}", data, sizeof data),
+                       PPM_STATUS_OK);
+    static const float expected[] = {.1f, .2f, .3f, 1, .4f, .5f, .6f, 1};
+    assert_floats(first(f)->colors, expected, 8);
+}
+
+static void tangents_without_normals_are_ignored(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float data[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    assert_gltf_status(f,
+                       gltf_import_primitive(
+                           f, "'attributes':{'POSITION':0,'TANGENT':1}",
+                           "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                           "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
+                           "'type':'VEC4'}",
+                           "{'buffer':0,'byteLength':84}", data, sizeof data),
+                       PPM_STATUS_OK);
+    assert_null(first(f)->tangents);
+    assert_null(first(f)->normals);
+}
+
+/* ---- sparse ---------------------------------------------------------------------------------- */
+
+#define SPARSE(base, index_type, count)                                                            \
+    "{" base "'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':" count ","           \
+    "'indices':{'bufferView':1,'componentType':" index_type "},'values':{'bufferView':2}}}"
+#define SPARSE_VIEWS                                                                               \
+    "{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':4},"                    \
+    "{'buffer':0,'byteOffset':40,'byteLength':24}"
+
+static const struct {
+    float base[9];
+    uint8_t indices[4];
+    float values[6];
+} sparse_data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 2, 0, 0}, {7, 0, 0, 0, 9, 0}};
+
+static void sparse_accessors_replace_elements(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float expected[] = {0, 0, 0, 7, 0, 0, 0, 9, 0};
+    assert_gltf_status(f,
+                       gltf_import_primitive(f, POSITION, SPARSE("'bufferView':0,", "5121", "2"),
+                                             SPARSE_VIEWS, &sparse_data, 64),
+                       PPM_STATUS_OK);
+    assert_floats(first(f)->positions, expected, 9);
+}
+
+static void sparse_accessors_without_a_buffer_view_start_from_zeros(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float expected[] = {0, 0, 0, 7, 0, 0, 0, 9, 0};
+    assert_gltf_status(f,
+                       gltf_import_primitive(f, POSITION, SPARSE("", "5121", "2"), SPARSE_VIEWS,
+                                             &sparse_data, 64),
+                       PPM_STATUS_OK);
+    assert_floats(first(f)->positions, expected, 9);
+}
+
+static void sparse_faults_are_errors(void **state)
+{
+    gltf_fixture *f = *state;
+    const struct {
+        const char *accessor, *message;
+    } cases[] = {
+        {SPARSE("'bufferView':0,", "5121", "3"), "do not fit in bufferViews[2]"},
+        {SPARSE("'bufferView':0,", "5123", "2"), "sparse index 513"}, /* bytes 1 2 as one */
+        {SPARSE("'bufferView':0,", "5126", "1"), "sparse.indices.componentType"},
+        {SPARSE("'bufferView':0,", "5121", "2000000000"), "do not fit in bufferViews[1]"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        assert_gltf_status(
+            f, gltf_import_primitive(f, POSITION, cases[i].accessor, SPARSE_VIEWS, &sparse_data, 64),
+            PPM_STATUS_INPUT_INVALID);
+        assert_gltf_logged(f, 'E', cases[i].message);
+        gltf_reset(f);
+    }
+}
+
+/* ---- bounds ---------------------------------------------------------------------------------- */
+
+static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+static void what_does_not_fit_is_refused_with_its_place(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *accessor, *view, *message;
+    } cases[] = {
+        {"{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "do not fit in bufferViews[0]"},
+        {"{'bufferView':0,'byteOffset':4,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "do not fit in bufferViews[0]"},
+        {"{'bufferView':0,'componentType':5126,'count':3000000000000000,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "do not fit in bufferViews[0]"},
+        {"{'bufferView':0,'byteOffset':9007199254740991,'componentType':5126,'count':3,"
+         "'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "do not fit in bufferViews[0]"},
+        {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':37}", "do not fit in 36 of buffers[0]"},
+        {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteOffset':9007199254740991,'byteLength':36}", "buffers[0]"},
+        {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':1,'byteLength':36}", "buffers[1] does not exist"},
+        {"{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "bufferViews[1] does not exist"},
+        {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36,'byteStride':8}", "byteStride 8"},
+        {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}",
+         "{'buffer':0,'byteLength':36}", "2 components"},
+        {"{'bufferView':0,'componentType':5126,'count':1,'type':'MAT3'}",
+         "{'buffer':0,'byteLength':36}", "0 components"},
+        {"{'bufferView':0,'componentType':5125,'count':3,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "componentType 5125"},
+        {"{'bufferView':0,'componentType':5126,'count':0,'type':'VEC3'}",
+         "{'buffer':0,'byteLength':36}", "accessors[0].count: out of range"},
+        {"{'componentType':5126,'count':1000000000,'type':'VEC3'}", "{'buffer':0,'byteLength':36}",
+         "without a buffer view are too many"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        assert_gltf_status(f,
+                           gltf_import_primitive(f, POSITION, cases[i].accessor, cases[i].view,
+                                                 triangle, sizeof triangle),
+                           PPM_STATUS_INPUT_INVALID);
+        assert_gltf_logged(f, 'E', cases[i].message);
+        gltf_reset(f);
+    }
+}
+
+static void an_accessor_that_does_not_exist_is_refused(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f,
+                       gltf_import_primitive(f, "'attributes':{'POSITION':7}",
+                                             "{'componentType':5126,'count':3,'type':'VEC3'}",
+                                             "{'buffer':0,'byteLength':36}", triangle, 36),
+                       PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(
+        f, 'E', "meshes[0].primitives[0].attributes.POSITION: accessors[7] does not exist");
+}
+
+static void attributes_of_another_length_are_refused(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, "'attributes':{'POSITION':0,'NORMAL':1}",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'bufferView':0,'componentType':5126,'count':2,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':36}", triangle, 36),
+        PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(f, 'E', "attributes.NORMAL: 2 elements, POSITION has 3");
+}
+
+static void an_index_out_of_range_is_refused_with_its_place(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        float positions[9];
+        uint8_t indices[4];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 3, 0}};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION ",'indices':1",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'bufferView':0,'byteOffset':36,'componentType':5121,'count':3,"
+                              "'type':'SCALAR'}",
+                              "{'buffer':0,'byteLength':40}", &data, 40),
+        PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(f, 'E', "meshes[0].primitives[0].indices: index 2 is 3");
+}
+
+static void indices_without_a_buffer_view_are_zeros(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION ",'indices':1,'extras':{'indices':0}",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'componentType':5121,'count':3,'type':'SCALAR'}",
+                              "{'buffer':0,'byteLength':36}", triangle, 36),
+        PPM_STATUS_OK);
+    assert_int_equal(first(f)->triangle_count, 0); /* all corners are vertex 0 */
+}
+
+static void positions_that_are_not_finite_are_dropped_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    const float data[18] = {0, 0, 0, NAN, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION,
+                              "{'bufferView':0,'componentType':5126,'count':6,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':72}", data, 72),
+        PPM_STATUS_OK);
+    assert_int_equal(first(f)->triangle_count, 1);
+    assert_gltf_logged(f, 'W', "not a finite number");
+}
+
+/* ---- modes ----------------------------------------------------------------------------------- */
+
+static const float five[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+
+static void import_mode(gltf_fixture *f, int mode)
+{
+    char primitive[80];
+    snprintf(primitive, sizeof primitive, POSITION ",'mode':%d", mode);
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, primitive,
+                              "{'bufferView':0,'componentType':5126,'count':5,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':60}", five, 60),
+        PPM_STATUS_OK);
+}
+
+static void strips_keep_their_winding(void **state)
+{
+    gltf_fixture *f = *state;
+    static const uint32_t expected[] = {0, 1, 2, 1, 3, 2, 2, 3, 4};
+    import_mode(f, 5);
+    assert_int_equal(first(f)->triangle_count, 3);
+    assert_memory_equal(first(f)->indices, expected, sizeof expected);
+}
+
+static void fans_turn_about_their_first_vertex(void **state)
+{
+    gltf_fixture *f = *state;
+    static const uint32_t expected[] = {1, 2, 0, 2, 3, 0}; /* the third, 3 4 0, follows */
+    import_mode(f, 6);
+    assert_int_equal(first(f)->triangle_count, 3);
+    assert_memory_equal(first(f)->indices, expected, sizeof expected);
+}
+
+static void an_incomplete_triangle_is_left_out_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    import_mode(f, 4);
+    assert_int_equal(first(f)->triangle_count, 1);
+    assert_int_equal(first(f)->vertex_count, 3);
+    assert_gltf_logged(f, 'W', "incomplete triangle");
+}
+
+static void points_and_lines_are_left_out_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    for (int mode = 0; mode < 4; ++mode) {
+        import_mode(f, mode);
+        assert_int_equal(f->scene->mesh_count, 0);
+        assert_gltf_logged(f, 'W', "1 primitives of points or lines left out");
+        assert_gltf_logged(f, 'W', "nothing to render");
+        gltf_reset(f);
+    }
+}
+
+static void compressed_geometry_without_a_fallback_is_unsupported(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f,
+                              POSITION ",'extensions':{'KHR_draco_mesh_compression':{"
+                                       "'bufferView':0,'attributes':{'POSITION':0}}}",
+                              "{'componentType':5126,'count':3,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':36}", triangle, 36),
+        PPM_STATUS_INPUT_UNSUPPORTED);
+    assert_gltf_logged(f, 'E', "KHR_draco_mesh_compression");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(positions_of_every_component_type_are_read),
+        TEST(the_lowest_signed_integer_is_minus_one),
+        TEST(indices_of_every_component_type_are_read),
+        TEST(interleaved_attributes_are_read),
+        TEST(colors_of_three_components_are_opaque),
+        TEST(tangents_without_normals_are_ignored),
+        TEST(sparse_accessors_replace_elements),
+        TEST(sparse_accessors_without_a_buffer_view_start_from_zeros),
+        TEST(sparse_faults_are_errors),
+        TEST(what_does_not_fit_is_refused_with_its_place),
+        TEST(an_accessor_that_does_not_exist_is_refused),
+        TEST(attributes_of_another_length_are_refused),
+        TEST(an_index_out_of_range_is_refused_with_its_place),
+        TEST(indices_without_a_buffer_view_are_zeros),
+        TEST(positions_that_are_not_finite_are_dropped_with_a_warning),
+        TEST(strips_keep_their_winding),
+        TEST(fans_turn_about_their_first_vertex),
+        TEST(an_incomplete_triangle_is_left_out_with_a_warning),
+        TEST(points_and_lines_are_left_out_with_a_warning),
+        TEST(compressed_geometry_without_a_fallback_is_unsupported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

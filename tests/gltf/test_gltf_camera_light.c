@@ -1,0 +1,203 @@
+/* importers/gltf/gltf_camera_light.c */
+#include <math.h>
+#include <stdio.h>
+
+#include "gltf_fixture.h"
+
+#define PI 3.14159265358979323846f
+
+/* A document with one node for each item of a list of cameras or lights. */
+static ppm_status import_cameras(gltf_fixture *f, const char *nodes, const char *cameras)
+{
+    return gltf_importf(f, "{'asset':{'version':'2.0'},'nodes':[%s],'cameras':[%s]}", nodes, cameras);
+}
+
+static ppm_status import_lights(gltf_fixture *f, const char *generator, const char *nodes,
+                                const char *lights)
+{
+    return gltf_importf(f,
+                        "{'asset':{'version':'2.0','generator':'%s'},"
+                        "'extensionsUsed':['KHR_lights_punctual'],'nodes':[%s],"
+                        "'extensions':{'KHR_lights_punctual':{'lights':[%s]}}}",
+                        generator, nodes, lights);
+}
+
+#define LIGHT(index) "'extensions':{'KHR_lights_punctual':{'light':" index "}}"
+
+static void perspective_cameras_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        import_cameras(f, "{'camera':0,'name':'node','translation':[1,2,3]},{'camera':1,'name':'n'}",
+                       "{'type':'perspective','name':'main','perspective':"
+                       "{'yfov':0.5,'znear':0.1,'aspectRatio':1.5}},"
+                       "{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}"),
+        PPM_STATUS_OK);
+    assert_int_equal(f->scene->camera_count, 2);
+    const ppmi_camera *camera = f->scene->cameras;
+    assert_string_equal(camera[0].name, "main");
+    assert_float_equal(camera[0].y_fov_rad, 0.5f, 1e-7f);
+    assert_float_equal(camera[0].aspect, 1.5f, 0.0f);
+    assert_float_equal(camera[0].origin.y, 2.0f, 0.0f);
+    assert_float_equal(camera[0].forward.z, -1.0f, 1e-6f);
+    assert_string_equal(camera[1].name, "n");
+    assert_float_equal(camera[1].aspect, 0.0f, 0.0f);
+}
+
+static void orthographic_cameras_show_twice_their_magnification(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f,
+                       import_cameras(f, "{'camera':0}",
+                                      "{'type':'orthographic','orthographic':"
+                                      "{'xmag':3,'ymag':-2,'znear':0,'zfar':9}}"),
+                       PPM_STATUS_OK);
+    assert_int_equal(f->scene->cameras[0].kind, PPM_CAMERA_ORTHOGRAPHIC);
+    assert_float_equal(f->scene->cameras[0].half_width_m, 3.0f, 0.0f);
+    assert_float_equal(f->scene->cameras[0].half_height_m, 2.0f, 0.0f);
+}
+
+static void invalid_cameras_are_left_out_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char *const cameras[] = {
+        "{'type':'perspective','perspective':{'yfov':0,'znear':1}}",
+        "{'type':'perspective','perspective':{'yfov':4,'znear':1}}",
+        "{'type':'perspective','perspective':{'znear':1}}",
+        "{'type':'perspective'}",
+        "{'type':'orthographic','perspective':{'yfov':1,'znear':1}}",
+        "{'type':'orthographic','orthographic':{'xmag':0,'ymag':1,'znear':0,'zfar':1}}",
+        "{'type':'fisheye'}",
+        "7",
+    };
+    for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; ++i) {
+        assert_gltf_status(f, import_cameras(f, "{'camera':0}", cameras[i]), PPM_STATUS_OK);
+        assert_int_equal(f->scene->camera_count, 0);
+        assert_gltf_logged(f, 'W', "nodes[0].camera: left out");
+        gltf_reset(f);
+    }
+    assert_gltf_status(f, import_cameras(f, "{'camera':3}", ""), PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "cameras[3] does not exist");
+}
+
+static void a_node_of_no_size_has_no_camera(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char camera[] = "{'type':'perspective','perspective':{'yfov':1,'znear':1}}";
+    assert_gltf_status(f, import_cameras(f, "{'camera':0,'scale':[0,0,0]}", camera), PPM_STATUS_OK);
+    assert_int_equal(f->scene->camera_count, 0);
+    gltf_reset(f); /* but scale as such is no harm */
+    assert_gltf_status(f, import_cameras(f, "{'camera':0,'scale':[1e-25,1e-25,1e-25]}", camera),
+                       PPM_STATUS_OK);
+    assert_int_equal(f->scene->camera_count, 1);
+}
+
+static void lights_have_the_defaults_of_the_extension(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f,
+                       import_lights(f, "x",
+                                     "{" LIGHT("0") ",'name':'lamp'},{" LIGHT("1") "},{" LIGHT("2") "}",
+                                     "{'type':'point'},{'type':'spot','spot':{}},"
+                                     "{'type':'directional','name':'sun','color':[1,0.5,0],"
+                                     "'intensity':4}"),
+                       PPM_STATUS_OK);
+    assert_int_equal(f->scene->punctual_count, 3);
+    const ppmi_punctual *light = f->scene->punctuals;
+    assert_string_equal(light[0].name, "lamp");
+    assert_int_equal(light[0].kind, PPM_LIGHT_POINT);
+    assert_float_equal(light[0].intensity.y, 1.0f, 0.0f);
+    assert_int_equal(light[1].kind, PPM_LIGHT_SPOT);
+    assert_float_equal(light[1].cos_inner, 1.0f, 0.0f);
+    assert_float_equal(light[1].cos_outer, cosf(PI / 4), 1e-6f);
+    assert_string_equal(light[2].name, "sun");
+    assert_float_equal(light[2].intensity.y, 2.0f, 0.0f);
+    assert_float_equal(light[2].direction.z, -1.0f, 1e-6f);
+}
+
+/* The intensities of a point light of 683 and a sun of 683. */
+static void check_units(gltf_fixture *f, const char *generator, int32_t option, float point,
+                        float sun, const char *message)
+{
+    f->options.light_units = option;
+    gltf_reset(f);
+    assert_gltf_status(f,
+                       import_lights(f, generator, "{" LIGHT("0") "},{" LIGHT("1") "}",
+                                     "{'type':'point','intensity':683},"
+                                     "{'type':'directional','intensity':683}"),
+                       PPM_STATUS_OK);
+    assert_float_equal(f->scene->punctuals[0].intensity.x, point, 1e-4f * point);
+    assert_float_equal(f->scene->punctuals[1].intensity.x, sun, 1e-4f * sun);
+    assert_gltf_logged(f, 'I', message);
+    assert_gltf_logged(f, 'I', "--light-units");
+}
+
+static void light_units_follow_generator_and_option(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char blender[] = "Khronos glTF Blender I/O v3.4.50";
+    check_units(f, "other", PPM_LIGHT_UNITS_AUTO, 683.0f, 683.0f, "as written");
+    check_units(f, blender, PPM_LIGHT_UNITS_AUTO, 1.0f, 1.0f, "683 lm/W");
+    check_units(f, blender, PPM_LIGHT_UNITS_GLTF, 683.0f, 683.0f, "as written");
+    check_units(f, "other", PPM_LIGHT_UNITS_BLENDER, 1.0f, 1.0f, "683 lm/W");
+    check_units(f, blender, PPM_LIGHT_UNITS_RAW, 683.0f / (4 * PI), 683.0f, "watts");
+}
+
+static void light_units_are_not_mentioned_without_lights(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f, import_lights(f, "x", "{}", "{'type':'point'}"), PPM_STATUS_OK);
+    assert_false(gltf_logged(f, 'I', "--light-units"));
+}
+
+static void a_spot_of_blend_0_and_one_of_180_degrees_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        import_lights(f, "x", "{" LIGHT("0") "}",
+                      "{'type':'spot','spot':{'innerConeAngle':1.5707964,'outerConeAngle':1.5707964}}"),
+        PPM_STATUS_OK);
+    assert_int_equal(f->scene->punctual_count, 1);
+    assert_float_equal(f->scene->punctuals[0].cos_outer, 0.0f, 1e-6f);
+}
+
+static void invalid_lights_are_left_out_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char *const lights[] = {
+        "{'type':'area'}",
+        "{'type':'spot'}",
+        "{}",
+        "{'type':'point','intensity':-1}",
+        "{'type':'point','color':[-1,0,0]}",
+        "{'type':'spot','spot':{'outerConeAngle':2}}",
+        "{'type':'spot','spot':{'innerConeAngle':0.5,'outerConeAngle':0.4}}",
+        "'point'",
+    };
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; ++i) {
+        assert_gltf_status(f, import_lights(f, "x", "{" LIGHT("0") "}", lights[i]), PPM_STATUS_OK);
+        assert_int_equal(f->scene->punctual_count, 0);
+        assert_gltf_logged(f, 'W', "nodes[0].extensions.KHR_lights_punctual.light: left out");
+        gltf_reset(f);
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(perspective_cameras_are_read),
+        TEST(orthographic_cameras_show_twice_their_magnification),
+        TEST(invalid_cameras_are_left_out_with_a_warning),
+        TEST(a_node_of_no_size_has_no_camera),
+        TEST(lights_have_the_defaults_of_the_extension),
+        TEST(light_units_follow_generator_and_option),
+        TEST(light_units_are_not_mentioned_without_lights),
+        TEST(a_spot_of_blend_0_and_one_of_180_degrees_are_read),
+        TEST(invalid_lights_are_left_out_with_a_warning),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
