@@ -1,7 +1,6 @@
 /* Accessors: typed arrays over buffer views (glTF 2.0 specification, section 3.6.2). Every byte
  * that is read has been checked to lie in its buffer view. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_reader.h"
@@ -191,7 +190,7 @@ static ppm_status name_accessor(ppmi_gltf_reader *reader, int32_t index, const c
 {
     const ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_ACCESSORS, index, place);
     if (status != PPM_STATUS_OK) return status;
-    snprintf(inner, PPMI_GLTF_PLACE, "%s (accessors[%d])", place, (int)index);
+    ppmi_gltf_place(inner, "%s (accessors[%d])", place, (int)index);
     *out = &reader->document->accessors[index];
     return PPM_STATUS_OK;
 }

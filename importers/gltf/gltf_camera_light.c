@@ -1,7 +1,6 @@
 /* Cameras, and punctual lights (KHR_lights_punctual). One that is invalid is left out with a
  * warning: the rest of the scene can be shown. Light units: docs/light-units.md. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_reader.h"
@@ -73,7 +72,7 @@ ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const do
     const ppmi_gltf_node *from = &reader->document->nodes[node];
     char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
     ppm_camera_id id;
-    snprintf(place, sizeof place, "nodes[%d].camera", (int)node);
+    ppmi_gltf_place(place, "nodes[%d].camera", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_CAMERAS, from->camera, place)) return PPM_STATUS_OK;
     const ppmi_gltf_camera *camera = &reader->document->cameras[from->camera];
     ppm_camera_desc desc = {.size = sizeof desc,
@@ -141,7 +140,7 @@ ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const dou
     const ppmi_gltf_node *from = &reader->document->nodes[node];
     char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
     ppm_light_id id;
-    snprintf(place, sizeof place, "nodes[%d].extensions.KHR_lights_punctual.light", (int)node);
+    ppmi_gltf_place(place, "nodes[%d].extensions.KHR_lights_punctual.light", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_LIGHTS, from->light, place)) return PPM_STATUS_OK;
     const ppmi_gltf_light *light = &reader->document->lights[from->light];
     const double factor = light->intensity * unit_factor(reader, light->kind);

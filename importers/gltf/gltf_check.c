@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/gltf_patch.h"
+#include "gltf/gltf_reader.h"
 #include "gltf/gltf_schema.h"
 
 enum {
@@ -21,13 +23,6 @@ enum {
 };
 #define LARGEST_NUMBER 3.4e38 /* what a float holds */
 
-/* A part of the text that tinygltf gets to see otherwise. */
-typedef struct patch {
-    size_t begin, end;
-    const char *text; /* static, or in number */
-    char number[24];
-} patch;
-
 typedef struct checker {
     ppm_context *context;
     const char *file;
@@ -38,8 +33,7 @@ typedef struct checker {
     size_t path_length;
     char **reason; /* where the present element's fault goes; *reason is NULL while it is fine */
     ppmi_gltf_source *source; /* the buffer or image that is being walked, or NULL */
-    patch *patches;           /* by place, not overlapping */
-    size_t patch_count, patch_capacity;
+    ppmi_gltf_patches patches;
     unsigned warnings;
     char version[16], min_version[16];
     bool out_of_memory;
@@ -50,22 +44,10 @@ static bool check_value(checker *c, const gltf_field *field);
 
 /* ---- memory and paths ------------------------------------------------------------------------ */
 
-/* Room for one more item: items itself, or a copy of twice the size when it is full. NULL when
- * memory is out. */
-static void *grow(checker *c, void *items, size_t count, size_t *capacity, size_t item_size)
+static bool fail_memory(checker *c)
 {
-    if (count < *capacity) return items;
-    const size_t more = *capacity == 0 ? 16 : *capacity * 2;
-    void *block = ppmi_alloc_zeroed(c->context, more, item_size);
-    if (!block) {
-        c->out_of_memory = true;
-        ppmi_gltf_json_fail(&c->json, "out of memory");
-        return NULL;
-    }
-    if (count > 0) memcpy(block, items, count * item_size);
-    ppmi_free(c->context, items);
-    *capacity = more;
-    return block;
+    c->out_of_memory = true;
+    return ppmi_gltf_json_fail(&c->json, "out of memory");
 }
 
 /* Both return the length to go back to. A path that is too long is cut. */
@@ -93,18 +75,10 @@ static void pop(checker *c, size_t before)
     c->path[before] = 0;
 }
 
-/* Replaces begin..end; what was replaced inside of it is forgotten. */
-static patch *add_patch(checker *c, size_t begin, size_t end, const char *text)
+/* Replaces begin..end by a text that lives on. */
+static bool add_patch(checker *c, size_t begin, size_t end, const char *text)
 {
-    while (c->patch_count > 0 && c->patches[c->patch_count - 1].begin >= begin) {
-        --c->patch_count;
-    }
-    patch *patches = grow(c, c->patches, c->patch_count, &c->patch_capacity, sizeof *c->patches);
-    if (!patches) return NULL;
-    c->patches = patches;
-    patch *added = &c->patches[c->patch_count++];
-    *added = (patch){.begin = begin, .end = end, .text = text};
-    return added;
+    return ppmi_gltf_patch(c->context, &c->patches, begin, end, text) || fail_memory(c);
 }
 
 /* ---- faults ---------------------------------------------------------------------------------- */
@@ -122,10 +96,7 @@ static bool break_element(checker *c, const char *what)
     if (*c->reason) return true;
     const size_t size = c->path_length + strlen(what) + 3;
     *c->reason = ppmi_alloc(c->context, size, 1);
-    if (!*c->reason) {
-        c->out_of_memory = true;
-        return ppmi_gltf_json_fail(&c->json, "out of memory");
-    }
+    if (!*c->reason) return fail_memory(c);
     snprintf(*c->reason, size, "%s: %s", c->path, what);
     return true;
 }
@@ -135,7 +106,7 @@ static bool complain(checker *c, const gltf_field *field, size_t begin, const ch
 {
     if (field->flags & GLTF_VITAL) return break_element(c, what);
     warn(c, what);
-    return add_patch(c, begin, c->json.at, "null") != NULL;
+    return add_patch(c, begin, c->json.at, "null");
 }
 
 /* ---- values that nobody looks at ------------------------------------------------------------- */
@@ -201,17 +172,17 @@ static bool normalise(checker *c, size_t begin, const ppmi_gltf_number *number, 
 {
     if (is_integer && number->is_integer && c->json.text[begin] != '-') return true;
     if (!is_integer && (!number->is_integer || fabs(number->value) < 2147483648.0)) return true;
+    char text[PPMI_GLTF_PATCH_SHORT];
     const size_t length = c->json.at - begin;
-    patch *added = add_patch(c, begin, c->json.at, NULL);
-    if (!added) return false;
     if (is_integer) {
-        snprintf(added->number, sizeof added->number, "%" PRIu64, (uint64_t)number->value);
-    } else if (length + 3 <= sizeof added->number) {
-        snprintf(added->number, sizeof added->number, "%.*s.0", (int)length, c->json.text + begin);
+        snprintf(text, sizeof text, "%" PRIu64, (uint64_t)number->value);
+    } else if (length + 3 <= sizeof text) {
+        snprintf(text, sizeof text, "%.*s.0", (int)length, c->json.text + begin);
     } else {
-        --c->patch_count; /* 22 digits and more are no int64 either: read as double anyway */
+        return true; /* more digits than an int64 has: read as double anyway */
     }
-    return true;
+    return ppmi_gltf_patch_short(c->context, &c->patches, begin, c->json.at, text) ||
+           fail_memory(c);
 }
 
 /* NULL when the number fits the field. */
@@ -363,9 +334,9 @@ static bool add_source(checker *c, uint8_t list)
                                                             : NULL;
     c->source = NULL;
     if (!sources) return true;
-    ppmi_gltf_source *items =
-        grow(c, sources->items, sources->count, &sources->capacity, sizeof *sources->items);
-    if (!items) return false;
+    ppmi_gltf_source *items = ppmi_gltf_grow(c->context, sources->items, sources->count,
+                                             &sources->capacity, sizeof *items);
+    if (!items) return fail_memory(c);
     sources->items = items;
     c->source = &sources->items[sources->count++];
     *c->source = (ppmi_gltf_source){.buffer_view = -1};
@@ -379,8 +350,9 @@ static bool check_element(checker *c, const gltf_field *field, ppmi_gltf_list *l
     char **outer = c->reason;
     ppmi_gltf_json_peek(&c->json);
     const size_t begin = c->json.at;
-    char **broken = grow(c, list->broken, list->count, &list->capacity, sizeof *list->broken);
-    if (!broken) return false;
+    char **broken =
+        ppmi_gltf_grow(c->context, list->broken, list->count, &list->capacity, sizeof *broken);
+    if (!broken) return fail_memory(c);
     list->broken = broken;
     if (!add_source(c, field->list)) return false;
     c->reason = &list->broken[list->count++];
@@ -451,9 +423,7 @@ static bool check_map(checker *c, const gltf_field *field)
             return ppmi_gltf_json_fail(&c->json, "expected a colon");
         }
         char name[MAX_KEY];
-        snprintf(name, sizeof name, "%.*s",
-                 (int)(key.end - key.begin > MAX_KEY ? MAX_KEY : key.end - key.begin),
-                 c->json.text + key.begin);
+        ppmi_gltf_printable(c->json.text + key.begin, key.end - key.begin, name, sizeof name);
         const size_t before = push_key(c, name);
         if (!check_number(c, &item, &number)) return false;
         pop(c, before);
@@ -579,35 +549,6 @@ static bool check_members(checker *c, const gltf_field *fields)
 
 /* ---- the document ---------------------------------------------------------------------------- */
 
-/* The text with its patches. */
-static bool compose(checker *c)
-{
-    size_t size = c->json.length + 1;
-    for (size_t i = 0; i < c->patch_count; ++i) {
-        const patch *p = &c->patches[i];
-        size += strlen(p->text ? p->text : p->number);
-    }
-    char *out = ppmi_alloc(c->context, size, 1);
-    if (!out) return false;
-    size_t count = 0, from = 0;
-    for (size_t i = 0; i < c->patch_count; ++i) {
-        const patch *p = &c->patches[i];
-        const char *text = p->text ? p->text : p->number;
-        const size_t length = strlen(text);
-        memcpy(out + count, c->json.text + from, p->begin - from);
-        count += p->begin - from;
-        memcpy(out + count, text, length);
-        count += length;
-        from = p->end;
-    }
-    memcpy(out + count, c->json.text + from, c->json.length - from);
-    count += c->json.length - from;
-    out[count] = 0;
-    c->outline->text = out;
-    c->outline->text_length = count;
-    return true;
-}
-
 static bool walk(checker *c)
 {
     size_t bad;
@@ -666,11 +607,13 @@ ppm_status ppmi_gltf_check(ppm_context *context, const char *file, const char *t
     if (status == PPM_STATUS_OK && root_fault) {
         status = ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: %s", file, root_fault);
     }
-    if (status == PPM_STATUS_OK && !compose(&c)) {
+    if (status == PPM_STATUS_OK &&
+        !ppmi_gltf_apply_patches(context, &c.patches, text, length, &out_outline->text,
+                                 &out_outline->text_length)) {
         status = ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", file);
     }
     ppmi_free(context, root_fault);
-    ppmi_free(context, c.patches);
+    ppmi_free(context, c.patches.items);
     return status;
 }
 

@@ -26,36 +26,35 @@ static FILE *open_regular(const char *path, size_t *out_size)
     return file;
 }
 
-/* The first wanted bytes of a file, all of it for 0. NULL with a reason when that fails. */
-static unsigned char *read_bytes(ppm_context *context, const char *path, size_t wanted,
-                                 size_t *out_count, ppm_status *status, const char **reason)
+/* The first wanted bytes of a file, all of it for 0; *out_bytes is the caller's. Returns OK,
+ * INPUT_NOT_FOUND, INPUT_INVALID, OUT_OF_MEMORY, unreported, with the reason. */
+static ppm_status read_bytes(ppm_context *context, const char *path, size_t wanted,
+                             unsigned char **out_bytes, size_t *out_count, const char **reason)
 {
     size_t size = 0;
+    ppm_status status = PPM_STATUS_INPUT_INVALID;
     FILE *file = open_regular(path, &size);
-    *status = PPM_STATUS_INPUT_NOT_FOUND;
     *reason = "the file cannot be opened";
-    if (!file) return NULL;
-    const size_t count = wanted > 0 ? wanted : size;
-    unsigned char *bytes = NULL;
-    *status = PPM_STATUS_INPUT_INVALID;
+    *out_bytes = NULL;
+    if (!file) return PPM_STATUS_INPUT_NOT_FOUND;
+    *out_count = wanted > 0 ? wanted : size;
     if (size == 0) {
         *reason = "the file is empty";
-    } else if (size < count) {
+    } else if (size < *out_count) {
         *reason = "the file is shorter than byteLength";
     } else {
-        bytes = ppmi_alloc(context, count, 1);
-        *status = PPM_STATUS_OUT_OF_MEMORY;
-        *reason = "out of memory";
+        *out_bytes = ppmi_alloc(context, *out_count, 1);
+        *reason = *out_bytes ? "the file cannot be read" : "out of memory";
+        if (!*out_bytes) status = PPM_STATUS_OUT_OF_MEMORY;
     }
-    if (bytes && fread(bytes, 1, count, file) != count) {
-        ppmi_free(context, bytes);
-        bytes = NULL;
-        *status = PPM_STATUS_INPUT_INVALID;
-        *reason = "the file cannot be read";
+    if (*out_bytes && fread(*out_bytes, 1, *out_count, file) == *out_count) {
+        status = PPM_STATUS_OK;
+    } else {
+        ppmi_free(context, *out_bytes);
+        *out_bytes = NULL;
     }
     fclose(file);
-    *out_count = count;
-    return bytes;
+    return status;
 }
 
 static uint32_t load_u32(const unsigned char *bytes)
@@ -118,10 +117,11 @@ ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
     const char *reason;
-    ppm_status status;
-    reader->file =
-        read_bytes(reader->context, reader->path, 0, &reader->file_size, &status, &reason);
-    if (!reader->file) return ppmi_fail(reader->context, status, "%s: %s", reader->path, reason);
+    const ppm_status status =
+        read_bytes(reader->context, reader->path, 0, &reader->file, &reader->file_size, &reason);
+    if (status != PPM_STATUS_OK) {
+        return ppmi_fail(reader->context, status, "%s: %s", reader->path, reason);
+    }
     if (reader->file_size >= 4 && memcmp(reader->file, "glTF", 4) == 0) return split_glb(reader);
     reader->json = (const char *)reader->file;
     reader->json_length = reader->file_size;
@@ -134,45 +134,46 @@ ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader)
 
 /* ---- buffers --------------------------------------------------------------------------------- */
 
-/* The URI of a buffer without JSON escapes; base64 has none, or "\/" only, and is long, so it is
- * copied only if need be. */
-static const char *unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span, size_t *length,
-                                char **owned)
+const char *ppmi_gltf_unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span,
+                                   size_t *out_length, char **out_owned)
 {
     const char *inside = reader->json + span.begin;
-    *length = span.end - span.begin;
-    *owned = NULL;
-    if (*length == 0 || !memchr(inside, '\\', *length)) return inside;
-    *owned = ppmi_alloc(reader->context, *length, 1);
-    if (!*owned) return NULL;
-    *length = ppmi_gltf_json_unescape(reader->json, span, *owned);
-    return *owned;
+    *out_length = span.end - span.begin;
+    *out_owned = NULL;
+    if (*out_length == 0 || !memchr(inside, '\\', *out_length)) return inside;
+    *out_owned = ppmi_alloc(reader->context, *out_length, 1);
+    if (!*out_owned) return NULL;
+    *out_length = ppmi_gltf_json_unescape(reader->json, span, *out_owned);
+    return *out_owned;
 }
 
 static ppm_status load_from_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
                                 size_t wanted, const char *place, ppmi_gltf_bytes *out)
 {
+    ppm_context *context = reader->context;
     char shown[80], *path = NULL;
-    const char *reason;
-    ppm_status status = PPM_STATUS_INPUT_INVALID;
+    const char *reason = "out of memory";
+    ppm_status status;
     if (ppmi_gltf_uri_is_data(uri, length)) {
-        reason = ppmi_gltf_uri_decode_data(reader->context, uri, length, &out->owned, &out->count);
-        if (!reason && out->count < wanted) reason = "the data URI is shorter than byteLength";
+        status = ppmi_gltf_uri_decode_data(context, uri, length, &out->owned, &out->count, &reason);
+        if (status == PPM_STATUS_OK && out->count < wanted) {
+            status = PPM_STATUS_INPUT_INVALID;
+            reason = "the data URI is shorter than byteLength";
+        }
     } else {
-        reason = ppmi_gltf_uri_path(reader->context, reader->path, uri, length, &path);
-        if (!reason) {
-            out->owned = read_bytes(reader->context, path, wanted, &out->count, &status, &reason);
-            if (out->owned) reason = NULL;
+        status = ppmi_gltf_uri_path(context, reader->path, uri, length, &path, &reason);
+        if (status == PPM_STATUS_OK) {
+            status = read_bytes(context, path, wanted, &out->owned, &out->count, &reason);
         }
     }
-    ppmi_free(reader->context, path);
-    if (!reason) {
+    ppmi_free(context, path);
+    if (status == PPM_STATUS_OK) {
         out->data = out->owned;
-        return PPM_STATUS_OK;
+        return status;
     }
-    ppmi_free(reader->context, out->owned);
+    ppmi_free(context, out->owned);
     out->owned = NULL;
-    return ppmi_fail(reader->context, status, "%s: %s.uri (\"%s\"): %s", reader->path, place,
+    return ppmi_fail(context, status, "%s: %s.uri (\"%s\"): %s", reader->path, place,
                      ppmi_gltf_printable(uri, length, shown, sizeof shown), reason);
 }
 
@@ -181,9 +182,9 @@ static ppm_status load_buffer(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
     const ppmi_gltf_source *source = &reader->outline.buffers.items[index];
     char place[PPMI_GLTF_PLACE], *owned;
     size_t length;
-    snprintf(place, sizeof place, "buffers[%d]", (int)index);
+    ppmi_gltf_place(place, "buffers[%d]", (int)index);
     if (source->has_uri) {
-        const char *uri = unescape_uri(reader, source->uri, &length, &owned);
+        const char *uri = ppmi_gltf_unescape_uri(reader, source->uri, &length, &owned);
         if (!uri) return ppmi_gltf_out_of_memory(reader, place);
         const ppm_status status =
             load_from_uri(reader, uri, length, source->byte_length, place, out);
@@ -207,7 +208,7 @@ ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const ch
     ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFER_VIEWS, view, place);
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
-    snprintf(inner, sizeof inner, "bufferViews[%d]", (int)view);
+    ppmi_gltf_place(inner, "bufferViews[%d]", (int)view);
     status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFERS, item->buffer, inner);
     if (status != PPM_STATUS_OK) return status;
     const size_t length = reader->outline.buffers.items[item->buffer].byte_length;

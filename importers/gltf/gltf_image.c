@@ -26,70 +26,68 @@ static bool is_regular_file(const char *path)
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-/* Fills bytes or path of desc from a URI. NULL when it went well. What is allocated goes to
- * *owned. */
-static const char *locate_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span, ppm_image_desc *desc,
-                              void **owned, char *shown, size_t shown_size)
+/* One image on its way to the scene. */
+typedef struct source {
+    ppm_image_desc desc;
+    void *owned;        /* what desc points to, if it was allocated for it */
+    char shown[64];     /* its URI, for messages */
+    const char *reason; /* why it cannot be had */
+} source;
+
+/* Fills in bytes or path from a URI. */
+static ppm_status locate_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span, source *s)
 {
-    const size_t raw = span.end - span.begin;
-    const char *uri = reader->json + span.begin, *reason;
-    char *unescaped = NULL;
-    size_t length = raw;
-    if (raw > 0 && memchr(uri, '\\', raw)) {
-        unescaped = ppmi_alloc(reader->context, raw, 1);
-        if (!unescaped) return "out of memory";
-        length = ppmi_gltf_json_unescape(reader->json, span, unescaped);
-        uri = unescaped;
-    }
-    ppmi_gltf_printable(uri, length < 60 ? length : 60, shown, shown_size);
+    unsigned char *bytes = NULL;
+    char *path = NULL, *unescaped;
+    size_t length;
+    ppm_status status;
+    const char *uri = ppmi_gltf_unescape_uri(reader, span, &length, &unescaped);
+    if (!uri) return PPM_STATUS_OUT_OF_MEMORY;
+    ppmi_gltf_printable(uri, length, s->shown, sizeof s->shown);
     if (ppmi_gltf_uri_is_data(uri, length)) {
-        unsigned char *bytes = NULL;
-        reason = ppmi_gltf_uri_decode_data(reader->context, uri, length, &bytes, &desc->byte_count);
-        if (!reason && !bytes) reason = "the data URI is empty";
-        desc->bytes = *owned = bytes;
+        status = ppmi_gltf_uri_decode_data(reader->context, uri, length, &bytes,
+                                           &s->desc.byte_count, &s->reason);
+        if (status == PPM_STATUS_OK && !bytes) s->reason = "the data URI is empty";
+        s->desc.bytes = s->owned = bytes;
     } else {
-        char *path = NULL;
-        reason = ppmi_gltf_uri_path(reader->context, reader->path, uri, length, &path);
-        if (!reason && !is_regular_file(path)) reason = "the file cannot be opened";
-        desc->path = *owned = path;
+        status = ppmi_gltf_uri_path(reader->context, reader->path, uri, length, &path, &s->reason);
+        if (status == PPM_STATUS_OK && !is_regular_file(path)) s->reason = "it cannot be opened";
+        s->desc.path = s->owned = path;
     }
     ppmi_free(reader->context, unescaped);
-    return reason;
+    return s->reason ? PPM_STATUS_INPUT_INVALID : status;
+}
+
+static ppm_status locate(ppmi_gltf_reader *reader, const ppmi_gltf_source *from, const char *place,
+                         source *s)
+{
+    const unsigned char *bytes = NULL;
+    if (from->has_uri) return locate_uri(reader, from->uri, s);
+    if (from->buffer_view < 0) {
+        s->reason = "it has neither uri nor bufferView";
+        return PPM_STATUS_INPUT_INVALID;
+    }
+    const ppm_status status =
+        ppmi_gltf_view_bytes(reader, from->buffer_view, place, &bytes, &s->desc.byte_count);
+    s->desc.bytes = bytes;
+    return status;
 }
 
 static ppm_status add_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
                             ppm_image_id *out_id)
 {
-    const ppmi_gltf_source *source = &reader->outline.images.items[index];
-    char place[PPMI_GLTF_PLACE], name[2 * PPMI_GLTF_PLACE], shown[96] = "";
-    void *owned = NULL;
-    const char *reason = NULL;
-    ppm_status status = PPM_STATUS_OK;
-    snprintf(place, sizeof place, "images[%d]", (int)index);
+    char place[PPMI_GLTF_PLACE], name[2 * PPMI_GLTF_PLACE];
+    ppmi_gltf_place(place, "images[%d]", (int)index);
     snprintf(name, sizeof name, "%s: %s", reader->path, place);
-    ppm_image_desc desc = {.size = sizeof desc, .name = name, .role = role};
-    if (source->has_uri) {
-        reason = locate_uri(reader, source->uri, &desc, &owned, shown, sizeof shown);
-    } else if (source->buffer_view < 0) {
-        reason = "it has neither uri nor bufferView";
-    } else {
-        const unsigned char *bytes = NULL;
-        status = ppmi_gltf_view_bytes(reader, source->buffer_view, place, &bytes, &desc.byte_count);
-        desc.bytes = bytes;
-    }
-    if (!reason && status == PPM_STATUS_OK) {
-        status = ppm_scene_add_image(reader->scene, &desc, out_id);
-    }
-    ppmi_free(reader->context, owned);
-    if (!reason && is_about_input(status)) {
-        reason = "see the message above";
-        status = PPM_STATUS_OK;
-    }
-    if (reason) {
-        ppmi_gltf_warn(reader, place, "left out%s%s%s: %s", shown[0] ? " (\"" : "", shown,
-                       shown[0] ? "\")" : "", reason);
-    }
-    return status;
+    source s = {.desc = {.size = sizeof s.desc, .name = name, .role = role}};
+    ppm_status status = locate(reader, &reader->outline.images.items[index], place, &s);
+    if (status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, place);
+    if (status == PPM_STATUS_OK) status = ppm_scene_add_image(reader->scene, &s.desc, out_id);
+    ppmi_free(reader->context, s.owned);
+    if (!is_about_input(status)) return status;
+    ppmi_gltf_warn(reader, place, "left out%s%s%s: %s", s.shown[0] ? " (\"" : "", s.shown,
+                   s.shown[0] ? "\")" : "", s.reason ? s.reason : "see the message above");
+    return PPM_STATUS_OK;
 }
 
 /* 0 when the image cannot be had. */
@@ -172,7 +170,7 @@ ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_textu
     }
     const ppmi_gltf_texture *texture = &reader->document->textures[info->texture];
     ppm_image_id image;
-    snprintf(inner, sizeof inner, "textures[%d]", (int)info->texture);
+    ppmi_gltf_place(inner, "textures[%d]", (int)info->texture);
     const ppm_status status = use_sources(reader, texture, role, inner, &image);
     if (status != PPM_STATUS_OK || image == 0) return status;
     out_texture->image = image;

@@ -1,6 +1,5 @@
 /* Materials: the metallic-roughness model and its extensions, value by value. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_reader.h"
@@ -36,9 +35,9 @@ static void set(conversion *c, const char *name, const double *from, int count, 
 static void set_texture(conversion *c, const char *name, const ppmi_gltf_texture_info *info,
                         int32_t role, ppm_texture *out)
 {
-    char place[2 * PPMI_GLTF_PLACE];
+    char place[PPMI_GLTF_PLACE];
     if (c->status != PPM_STATUS_OK || info->texture < 0) return;
-    snprintf(place, sizeof place, "%s.%s", c->place, name);
+    ppmi_gltf_place(place, "%s.%s", c->place, name);
     c->status = ppmi_gltf_use_texture(c->reader, info, role, place, out);
 }
 
@@ -170,7 +169,7 @@ static ppm_status add_material(ppmi_gltf_reader *reader, int32_t index, ppm_mate
     const ppmi_gltf_material *from = &reader->document->materials[index];
     char name[PPMI_GLTF_PLACE];
     conversion c = {.reader = reader, .from = from};
-    snprintf(c.place, sizeof c.place, "materials[%d]", (int)index);
+    ppmi_gltf_place(c.place, "materials[%d]", (int)index);
     ppm_material_desc_init(&c.desc);
     c.desc.name = ppmi_gltf_printable(from->name, strlen(from->name), name, sizeof name);
     convert(&c);

@@ -41,7 +41,7 @@ static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     size_t count;
     const int32_t accessor = find_attribute(primitive, name);
     if (accessor < 0) return PPM_STATUS_OK;
-    snprintf(inner, sizeof inner, "%s.attributes.%s", place, name);
+    ppmi_gltf_place(inner, "%s.attributes.%s", place, name);
     const ppm_status status = ppmi_gltf_read_floats(reader, accessor, inner, format, out, &count);
     if (status != PPM_STATUS_OK || count == vertex_count) return status;
     return ppmi_gltf_invalid(reader, inner, "%zu elements, POSITION has %zu", count, vertex_count);
@@ -75,7 +75,7 @@ static ppm_status read_index_list(ppmi_gltf_reader *reader, const ppmi_gltf_prim
                                   size_t *out_count)
 {
     char inner[PPMI_GLTF_PLACE];
-    snprintf(inner, sizeof inner, "%s.indices", place);
+    ppmi_gltf_place(inner, "%s.indices", place);
     if (primitive->indices < 0) {
         *out_count = vertex_count;
         *out = ppmi_alloc(reader->context, vertex_count, sizeof **out);
@@ -145,7 +145,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
                          reader->path, place);
     }
     if (primitive->has_targets) reader->tally.morph_targets++;
-    snprintf(inner, sizeof inner, "%s.attributes.POSITION", place);
+    ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
     ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
                                               &g->vertex_count);
     if (status != PPM_STATUS_OK) return status;
@@ -157,7 +157,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     status = read_attributes(reader, primitive, place, g);
     if (status != PPM_STATUS_OK) return status;
     if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
-    snprintf(inner, sizeof inner, "%s.material", place);
+    ppmi_gltf_place(inner, "%s.material", place);
     return ppmi_gltf_use_material(reader, primitive->material, inner, &g->material);
 }
 
@@ -202,14 +202,14 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_
     char place[PPMI_GLTF_PLACE];
     *out_id = 0;
     if (mesh->primitive_count == 0) return PPM_STATUS_OK;
-    snprintf(place, sizeof place, "meshes[%d]", (int)index);
+    ppmi_gltf_place(place, "meshes[%d]", (int)index);
     ppmi_gltf_geometry *all =
         ppmi_alloc_zeroed(reader->context, mesh->primitive_count, sizeof *all);
     ppm_primitive_desc *descs = ppmi_alloc(reader->context, mesh->primitive_count, sizeof *descs);
     ppm_status status = PPM_STATUS_OK;
     if (!all || !descs) status = ppmi_gltf_out_of_memory(reader, place);
     for (uint32_t i = 0; i < mesh->primitive_count && status == PPM_STATUS_OK; ++i) {
-        snprintf(place, sizeof place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
+        ppmi_gltf_place(place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
         status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
     }
     if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);

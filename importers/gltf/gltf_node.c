@@ -1,7 +1,6 @@
 /* Nodes: the scene's hierarchy, walked without recursion, and what hangs on it. Transforms are
  * composed in double precision. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_reader.h"
@@ -68,7 +67,7 @@ static ppm_status local_matrix(ppmi_gltf_reader *reader, int32_t index, double o
     const double *m = node->matrix;
     const double error = fabs(m[3]) + fabs(m[7]) + fabs(m[11]) + fabs(m[15] - 1.0);
     if (error > 1e-4) { /* what single precision makes of 0 0 0 1 after a few products is less */
-        snprintf(place, sizeof place, "nodes[%d].matrix", (int)index);
+        ppmi_gltf_place(place, "nodes[%d].matrix", (int)index);
         return ppmi_gltf_invalid(reader, place, "not affine: its last row is not 0 0 0 1");
     }
     memcpy(out, m, sizeof node->matrix);
@@ -101,7 +100,7 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
         .name = ppmi_gltf_printable(node_name, strlen(node_name), name, sizeof name),
         .mesh = mesh};
     if (!to_floats(world, desc.transform)) {
-        snprintf(place, sizeof place, "nodes[%d]", (int)index);
+        ppmi_gltf_place(place, "nodes[%d]", (int)index);
         return ppmi_gltf_invalid(reader, place, "its transform in the world is too large");
     }
     const ppm_status status = ppm_scene_add_instance(reader->scene, &desc, &id);
@@ -119,7 +118,7 @@ static ppm_status read_instance_attribute(ppmi_gltf_reader *reader, const ppmi_g
     size_t this_count;
     for (uint32_t i = 0; i < node->instance_attribute_count; ++i) {
         if (strcmp(node->instance_attributes[i].name, name) != 0) continue;
-        snprintf(inner, sizeof inner, "%s.%s", place, name);
+        ppmi_gltf_place(inner, "%s.%s", place, name);
         const ppm_status status = ppmi_gltf_read_floats(
             reader, node->instance_attributes[i].accessor, inner, &format, out, &this_count);
         if (status != PPM_STATUS_OK) return status;
@@ -147,8 +146,7 @@ static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm
     char place[PPMI_GLTF_PLACE];
     float *translations = NULL, *rotations = NULL, *scales = NULL;
     size_t count = 0;
-    snprintf(place, sizeof place, "nodes[%d].extensions.EXT_mesh_gpu_instancing.attributes",
-             (int)index);
+    ppmi_gltf_place(place, "nodes[%d].extensions.EXT_mesh_gpu_instancing.attributes", (int)index);
     ppm_status status =
         read_instance_attribute(reader, node, place, "TRANSLATION", 3, &translations, &count);
     if (status == PPM_STATUS_OK) {
@@ -178,7 +176,7 @@ static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index, const doubl
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     char place[PPMI_GLTF_PLACE];
     ppm_mesh_id mesh;
-    snprintf(place, sizeof place, "nodes[%d].mesh", (int)index);
+    ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
     const ppm_status status = ppmi_gltf_use_mesh(reader, node->mesh, place, &mesh);
     if (status != PPM_STATUS_OK || mesh == 0) return status;
     if (node->skin >= 0) reader->tally.skins++;
@@ -245,7 +243,7 @@ static ppm_status visit(ppmi_gltf_reader *reader, walk *w)
     }
     status = emit_node(reader, index, w->worlds[index]);
     for (uint32_t i = node->child_count; i > 0 && status == PPM_STATUS_OK; --i) {
-        snprintf(place, sizeof place, "nodes[%d].children[%u]", (int)index, (unsigned)(i - 1));
+        ppmi_gltf_place(place, "nodes[%d].children[%u]", (int)index, (unsigned)(i - 1));
         status = push(reader, w, node->children[i - 1], index, place);
     }
     return status;
@@ -295,7 +293,7 @@ static ppm_status walk_scene(ppmi_gltf_reader *reader, walk *w)
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_scene *scene = &document->scenes[index];
     for (uint32_t i = 0; i < scene->node_count && status == PPM_STATUS_OK; ++i) {
-        snprintf(place, sizeof place, "scenes[%d].nodes[%u]", (int)index, (unsigned)i);
+        ppmi_gltf_place(place, "scenes[%d].nodes[%u]", (int)index, (unsigned)i);
         status = walk_from(reader, w, scene->nodes[i], place);
     }
     return status;

@@ -51,6 +51,14 @@ bool ppmi_gltf_accept(ppmi_gltf_reader *reader, int list, int32_t index, const c
     return false;
 }
 
+void ppmi_gltf_place(char place[PPMI_GLTF_PLACE], const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(place, PPMI_GLTF_PLACE, format, arguments);
+    va_end(arguments);
+}
+
 ppm_status ppmi_gltf_invalid(ppmi_gltf_reader *reader, const char *place, const char *format, ...)
 {
     char text[2 * PPMI_GLTF_PLACE];

@@ -69,6 +69,11 @@ ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader);
 ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
                                 const unsigned char **out_bytes, size_t *out_count);
 
+/* A URI without JSON escapes. Data URIs are long and have none, as a rule, so it is copied only if
+ * need be: *out_owned is then the caller's to free. NULL when memory is out. */
+const char *ppmi_gltf_unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span,
+                                   size_t *out_length, char **out_owned);
+
 /* ---- gltf_reader.c: references --------------------------------------------------------------- */
 
 /* Whether element index of a list exists and is sound; otherwise why not, in reason. */
@@ -78,6 +83,9 @@ bool ppmi_gltf_is_usable(const ppmi_gltf_reader *reader, int list, int32_t index
 /* The same as an error of the file (vital parts) or as a warning (parts that can be left out). */
 ppm_status ppmi_gltf_require(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
 bool ppmi_gltf_accept(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
+
+/* Writes a JSON path for messages; one that is too long is cut. */
+void ppmi_gltf_place(char place[PPMI_GLTF_PLACE], const char *format, ...) PPMI_PRINTF(2, 3);
 
 /* INPUT_INVALID with file, place and reason. */
 ppm_status ppmi_gltf_invalid(ppmi_gltf_reader *reader, const char *place, const char *format, ...)

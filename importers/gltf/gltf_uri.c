@@ -20,6 +20,12 @@ bool ppmi_gltf_uri_is_data(const char *uri, size_t length)
     return length >= 5 && equals_ignoring_case(uri, "data:", 5);
 }
 
+static ppm_status refuse(const char *reason, const char **out_reason)
+{
+    *out_reason = reason;
+    return PPM_STATUS_INPUT_INVALID;
+}
+
 static int hex_value(char c)
 {
     if (c >= '0' && c <= '9') return c - '0';
@@ -78,28 +84,29 @@ static bool base64_decode(const char *text, size_t length, unsigned char *out, s
     return true;
 }
 
-const char *ppmi_gltf_uri_decode_data(ppm_context *context, const char *uri, size_t length,
-                                      unsigned char **out_bytes, size_t *out_count)
+ppm_status ppmi_gltf_uri_decode_data(ppm_context *context, const char *uri, size_t length,
+                                     unsigned char **out_bytes, size_t *out_count,
+                                     const char **out_reason)
 {
     static const char base64[] = ";base64";
     const size_t mark = sizeof base64 - 1;
     *out_bytes = NULL;
     *out_count = 0;
     const char *comma = memchr(uri, ',', length);
-    if (!comma) return "the data URI has no comma";
+    if (!comma) return refuse("the data URI has no comma", out_reason);
     const size_t header = (size_t)(comma - uri), rest = length - header - 1;
-    if (rest == 0) return NULL;
+    if (rest == 0) return PPM_STATUS_OK;
     unsigned char *bytes = ppmi_alloc(context, rest, 1);
-    if (!bytes) return "out of memory";
+    if (!bytes) return PPM_STATUS_OUT_OF_MEMORY;
     const bool is_base64 = header >= mark && equals_ignoring_case(comma - mark, base64, mark);
     if (!is_base64) {
         *out_count = percent_decode(comma + 1, rest, (char *)bytes);
     } else if (!base64_decode(comma + 1, rest, bytes, out_count)) {
         ppmi_free(context, bytes);
-        return "the data URI is not base64";
+        return refuse("the data URI is not base64", out_reason);
     }
     *out_bytes = bytes;
-    return NULL;
+    return PPM_STATUS_OK;
 }
 
 /* scheme ":" of RFC 3986, section 3.1. */
@@ -132,16 +139,18 @@ static bool stays_inside(const char *path)
     return depth > 0;
 }
 
-const char *ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, const char *uri,
-                               size_t length, char **out_path)
+ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, const char *uri,
+                              size_t length, char **out_path, const char **out_reason)
 {
     *out_path = NULL;
-    if (length == 0) return "the URI is empty";
-    if (has_scheme(uri, length)) return "only files in the asset's folder are read, no other URI";
+    if (length == 0) return refuse("the URI is empty", out_reason);
+    if (has_scheme(uri, length)) {
+        return refuse("only files in the asset's folder are read, no other URI", out_reason);
+    }
     const char *slash = strrchr(asset_path, '/');
     const size_t folder = slash ? (size_t)(slash - asset_path) + 1 : 0;
     char *path = ppmi_alloc(context, folder + length + 1, 1);
-    if (!path) return "out of memory";
+    if (!path) return PPM_STATUS_OUT_OF_MEMORY;
     memcpy(path, asset_path, folder);
     char *relative = path + folder;
     const size_t count = percent_decode(uri, length, relative);
@@ -156,8 +165,8 @@ const char *ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, con
     if (!fault && !stays_inside(relative)) fault = "the path leaves the asset's folder";
     if (fault) {
         ppmi_free(context, path);
-        return fault;
+        return refuse(fault, out_reason);
     }
     *out_path = path;
-    return NULL;
+    return PPM_STATUS_OK;
 }

@@ -50,7 +50,8 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     const ppm_render_options *const rendered = ppm_render_get_options(render);
     const char *const camera = ppm_scene_camera_name(ppmi_render_scene(render), rendered->camera);
     ppmi_output_header header;
-    ppmi_output_header_init(&header, rendered, &stats, camera, options->command);
+    ppmi_output_header_init(&header, rendered, &stats, ppmi_render_integrator_name(render), camera,
+                            options->command);
     file->attributes = header.attributes;
     file->attribute_count = header.count;
     if (options->depth == PPM_DEPTH_HALF) file->store = PPMI_STORE_HALF;

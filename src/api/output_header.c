@@ -44,26 +44,16 @@ static void add_count(ppmi_output_header *header, const char *name, uint64_t val
     add_text(header, name, text);
 }
 
-static const char *integrator_name(int32_t integrator)
-{
-    switch (integrator) {
-    case PPM_INTEGRATOR_SPPM:
-        return "sppm";
-    case PPM_INTEGRATOR_PATH:
-        return "path";
-    }
-    return "unknown";
-}
-
 /* All options that shape the picture; the number of threads does not. */
-static void write_options(char *text, size_t size, const ppm_render_options *options)
+static void write_options(char *text, size_t size, const char *integrator,
+                          const ppm_render_options *options)
 {
     snprintf(text, size,
              "integrator=%s width=%" PRIu32 " height=%" PRIu32 " photons_per_pass=%" PRIu64
              " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64 " camera=%" PRIu32,
-             integrator_name(options->integrator), options->width, options->height,
-             options->photons_per_pass, options->max_depth, (double)options->radius_m,
-             (double)options->alpha, options->seed, options->camera);
+             integrator, options->width, options->height, options->photons_per_pass,
+             options->max_depth, (double)options->radius_m, (double)options->alpha, options->seed,
+             options->camera);
 }
 
 void ppmi_output_header_init_display(ppmi_output_header *header)
@@ -74,14 +64,15 @@ void ppmi_output_header_init_display(ppmi_output_header *header)
 }
 
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
-                             const ppm_render_stats *stats, const char *camera, const char *command)
+                             const ppm_render_stats *stats, const char *integrator,
+                             const char *camera, const char *command)
 {
     /* ITU-R BT.709: red, green, blue, white (D65) */
     static const float chromaticities[8] = {0.64f, 0.33f, 0.30f,   0.60f,
                                             0.15f, 0.06f, 0.3127f, 0.3290f};
     static const float square[1] = {1};
     ppmi_output_header_init_display(header);
-    write_options(header->options, sizeof header->options, options);
+    write_options(header->options, sizeof header->options, integrator, options);
     add_floats(header, "chromaticities", chromaticities, 8);
     /* OpenImageIO keeps its own attribute for itself: 2.4 calls every OpenEXR file it reads
      * "Linear". The second name is the one that is stored (ASWF Color Interop Forum). */
@@ -90,7 +81,7 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
     add_floats(header, "PixelAspectRatio", square, 1);
     add_text(header, "ppm:version", ppm_version());
     add_text(header, "ppm:options", header->options);
-    add_text(header, "ppm:integrator", integrator_name(options->integrator));
+    add_text(header, "ppm:integrator", integrator);
     add_count(header, "ppm:passes", stats->passes);
     add_count(header, "ppm:photons", stats->photons_emitted);
     add_count(header, "ppm:seed", options->seed);

@@ -17,10 +17,10 @@ typedef struct ppmi_output_header {
     uint32_t text_count; /* of counts */
 } ppmi_output_header;
 
-/* camera and command may be NULL; they and options must outlive header. */
+/* camera and command may be NULL; the texts must outlive header. */
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
-                             const ppm_render_stats *stats, const char *camera,
-                             const char *command);
+                             const ppm_render_stats *stats, const char *integrator,
+                             const char *camera, const char *command);
 
 /* The one line that files of other kinds carry. */
 void ppmi_output_header_init_display(ppmi_output_header *header);

@@ -2,6 +2,7 @@
 #include "stats_json.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,20 +17,28 @@
 /* ---- the file -------------------------------------------------------------------------------- */
 
 typedef struct new_file {
-    char *path; /* beside the name that it will get */
+    char *path; /* beside the name that it will get; NULL: written in place */
     FILE *stream;
 } new_file;
 
-/* mkstemp makes files that only their owner may read; pictures and statistics are for others too,
- * as far as the umask allows. */
+/* mkstemp makes files that only their owner may read; statistics are for others too, as far as the
+ * umask allows. Without that they are still usable, so a failure does not matter. */
 static void widen_mode(int descriptor)
 {
     const mode_t mask = umask(0);
     umask(mask);
-    if (fchmod(descriptor, 0666 & ~mask) != 0) errno = 0; /* the file is still usable */
+    const int ignored = fchmod(descriptor, 0666 & ~mask);
+    (void)ignored;
 }
 
-static int new_file_open(new_file *file, const char *path)
+/* A device or pipe must not be replaced by a file. */
+static bool is_special(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && !S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode);
+}
+
+static int open_beside(new_file *file, const char *path)
 {
     static const char suffix[] = ".XXXXXX.tmp";
     file->path = malloc(strlen(path) + sizeof suffix);
@@ -50,21 +59,30 @@ static int new_file_open(new_file *file, const char *path)
     return error;
 }
 
+/* Returns 0 or an errno. */
+static int new_file_open(new_file *file, const char *path)
+{
+    if (!is_special(path)) return open_beside(file, path);
+    file->path = NULL;
+    file->stream = fopen(path, "w");
+    return file->stream ? 0 : errno;
+}
+
 static void new_file_drop(new_file *file)
 {
     fclose(file->stream);
-    unlink(file->path);
+    if (file->path) unlink(file->path);
     free(file->path);
 }
 
 /* Gives the complete file its name. Returns 0 or an errno. */
 static int new_file_publish(new_file *file, const char *path)
 {
-    int error = 0;
-    if (fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0) error = errno;
+    int error = fflush(file->stream) == 0 ? 0 : errno;
+    if (error == 0 && file->path && fsync(fileno(file->stream)) != 0) error = errno;
     if (fclose(file->stream) != 0 && error == 0) error = errno;
-    if (error == 0 && rename(file->path, path) != 0) error = errno;
-    if (error != 0) unlink(file->path);
+    if (error == 0 && file->path && rename(file->path, path) != 0) error = errno;
+    if (error != 0 && file->path) unlink(file->path);
     free(file->path);
     return error;
 }

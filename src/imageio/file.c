@@ -136,8 +136,8 @@ static ppm_status replacement_begin(ppm_context *context, const char *path, repl
     mode_t mode = 0;
     ppm_status status = find_target(context, path, &file->target, &mode);
     if (status == PPM_STATUS_OK) status = create_temporary(context, path, file);
-    /* a replaced file keeps its permissions; where the file system has none that is no failure */
-    if (status == PPM_STATUS_OK && mode != 0 && fchmod(file->descriptor, mode) != 0) errno = 0;
+    /* a replaced file keeps its permissions; a file system without them is no reason to fail */
+    if (status == PPM_STATUS_OK && mode != 0) (void)fchmod(file->descriptor, mode);
     return status;
 }
 

@@ -21,6 +21,15 @@ static int32_t channels_to_keep(const ppmi_oiio_info *info)
     return info->channels == 2 && info->alpha_channel == 1 ? 2 : 1;
 }
 
+/* Whether only a part of the picture is stored (OpenEXR's data window). Elsewhere offsets are
+ * hints for page layout. */
+static bool is_part(const ppmi_image_format *format, const ppmi_oiio_info *info)
+{
+    return strcmp(format->oiio, "openexr") == 0 &&
+           (info->x != info->full_x || info->y != info->full_y || info->width != info->full_width ||
+            info->height != info->full_height);
+}
+
 static ppm_status check_area(ppm_context *context, const char *name, int32_t width, int32_t height,
                              int32_t channels)
 {
@@ -59,17 +68,8 @@ static ppm_status check_header(ppm_context *context, const char *name,
     }
     const int32_t channels = channels_to_keep(info);
     const ppm_status status = check_area(context, name, info->width, info->height, channels);
-    if (status != PPM_STATUS_OK) return status;
+    if (status != PPM_STATUS_OK || !is_part(format, info)) return status;
     return check_area(context, name, info->full_width, info->full_height, channels);
-}
-
-/* Whether only a part of the picture is stored (OpenEXR's data window). Elsewhere offsets are
- * hints for page layout. */
-static bool is_part(const ppmi_image_format *format, const ppmi_oiio_info *info)
-{
-    return strcmp(format->oiio, "openexr") == 0 &&
-           (info->x != info->full_x || info->y != info->full_y || info->width != info->full_width ||
-            info->height != info->full_height);
 }
 
 static int64_t larger(int64_t a, int64_t b)

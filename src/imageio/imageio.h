@@ -49,7 +49,7 @@ typedef struct ppmi_image_file {
     /* width * height * channels, row 0 on top. Alpha, the second or fourth channel, multiplies the
      * colours in OpenEXR, by its convention, and does not in the other formats. */
     const float *pixels;
-    const char *const *channel_names; /* channels names, or NULL: R G B A */
+    const char *const *channel_names; /* channels names, or NULL: Y, Y A, R G B, R G B A */
     int32_t store;                    /* PPMI_STORE_ */
     uint32_t attribute_count;
     const ppmi_image_attribute *attributes;

@@ -182,6 +182,10 @@ static void set_attribute(ImageSpec &spec, const ppmi_image_attribute &attribute
 static ImageSpec make_spec(const ppmi_image_file &file, const char *compression)
 {
     ImageSpec spec((int)file.width, (int)file.height, (int)file.channels, stored_type(file.store));
+    if (file.channels == 2) { /* OpenImageIO has no names for these of its own */
+        spec.channelnames = {"Y", "A"};
+        spec.alpha_channel = 1;
+    }
     if (file.channel_names) {
         for (uint32_t i = 0; i < file.channels; i++)
             spec.channelnames[i] = file.channel_names[i];

@@ -51,6 +51,15 @@ static bool header_is_valid(const uint8_t *data)
     return data[10] == 0 && data[11] == 0 && data[12] <= 1;
 }
 
+static bool type_is_valid(const uint8_t *type)
+{
+    for (int i = 0; i < 4; i++) {
+        const uint8_t letter = type[i] | 0x20; /* small */
+        if (letter < 'a' || letter > 'z') return false;
+    }
+    return true;
+}
+
 /* Critical chunks have a capital first letter; a fault in another one does no harm. */
 static bool is_critical(const uint8_t *type)
 {
@@ -63,6 +72,7 @@ static const char *chunk_fault(const uint8_t *chunk, uint32_t length, bool is_fi
     const uint8_t *const type = chunk + 4, *const data = chunk + 8;
     const bool is_header = memcmp(type, "IHDR", 4) == 0;
     if (is_first != is_header) return "the header is not the first chunk";
+    if (!type_is_valid(type)) return "the chunk's type is not of letters";
     if (!is_critical(type)) return NULL;
     if (crc32_of(type, (size_t)length + 4) != big_endian(data + length)) return "checksum is wrong";
     if (is_header && (length != IHDR_BYTES || !header_is_valid(data))) {

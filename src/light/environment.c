@@ -37,8 +37,8 @@ static ppmi_vec3 uv_to_direction(const ppmi_environment_map *map, ppmi_vec2 uv)
 static ppmi_vec3 lookup(const ppmi_environment_map *map, ppmi_vec2 uv)
 {
     const ppmi_texel texel = ppmi_texture_lookup(map->scene, &map->texture, uv);
-    return vec3_mul(map->radiance,
-                    vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f), ppmi_max(texel.b, 0.0f)));
+    return vec3_mul(map->radiance, vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f),
+                                        ppmi_max(texel.b, 0.0f)));
 }
 
 /* Solid angle of a cell in a row. */

@@ -300,21 +300,29 @@ static bool sample_punctual(const ppmi_punctual *light, ppmi_vec3 position,
     sample->is_delta = true;
     if (light->kind == PPM_LIGHT_DIRECTIONAL) {
         sample->wi = vec3_neg(light->direction);
-        sample->distance = INFINITY;
+        sample->is_far = true;
         sample->radiance = light->intensity;
         return true;
     }
     const ppmi_vec3 to_light = vec3_sub(light->position, position);
     const float distance2 = vec3_length2(to_light);
     if (!(distance2 > 0.0f)) return false;
-    sample->distance = sqrtf(distance2);
-    sample->wi = vec3_scale(to_light, 1.0f / sample->distance);
+    sample->target = light->position;
+    sample->wi = vec3_normalize(to_light);
     float scale = 1.0f / distance2;
     if (light->kind == PPM_LIGHT_SPOT) {
         scale *= spot_falloff(light, -vec3_dot(sample->wi, light->direction));
     }
     sample->radiance = vec3_scale(light->intensity, scale);
     return scale > 0.0f;
+}
+
+/* Rays meet a surface with alpha as often as it is opaque, and see its emission then. */
+static ppmi_vec3 covered_emission(const ppmi_lights *lights, const ppmi_surface *surface,
+                                  ppmi_vec3 wo)
+{
+    return vec3_scale(ppmi_surface_emission(lights->scene, surface, wo),
+                      ppmi_surface_opacity(lights->scene, surface));
 }
 
 static bool sample_triangle(const ppmi_lights *lights, const emitter *e, ppmi_vec3 position,
@@ -330,9 +338,9 @@ static bool sample_triangle(const ppmi_lights *lights, const emitter *e, ppmi_ve
     sample->wi = vec3_scale(to_light, 1.0f / distance);
     const float cosine = fabsf(vec3_dot(sample->wi, surface.ng));
     if (!(cosine > 1e-6f)) return false;
-    sample->radiance = ppmi_surface_emission(lights->scene, &surface, vec3_neg(sample->wi));
-    /* the way is clear up to the error of the point on the light, seen along the ray */
-    sample->distance = distance - ppmi_min(surface.error / cosine * 2.0f, 0.01f * distance);
+    sample->radiance = covered_emission(lights, &surface, vec3_neg(sample->wi));
+    const float side = vec3_dot(sample->wi, surface.ng) < 0.0f ? 1.0f : -1.0f;
+    sample->target = vec3_mad(surface.position, surface.ng, side * surface.error);
     sample->pdf *= distance2 / (cosine * e->area);
     return !vec3_is_black(sample->radiance);
 }
@@ -342,7 +350,7 @@ static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_
                                float v, ppmi_light_sample *sample)
 {
     const ppmi_environment_map *map = &lights->environment;
-    sample->distance = INFINITY;
+    sample->is_far = true;
     if (ppmi_environment_map_is_constant(map)) {
         const ppmi_frame frame = ppmi_frame_from_normal(n);
         const ppmi_vec3 local = ppmi_sample_cosine_hemisphere(u, v);
@@ -423,7 +431,7 @@ static bool emit_triangle(const ppmi_lights *lights, const emitter *e, const flo
     const ppmi_vec3 direction = vec3_normalize(
         ppmi_frame_to_world(&frame, ppmi_sample_cosine_hemisphere(u_direction, u[3])));
     emission->ray = ppmi_surface_ray(&surface, direction);
-    const ppmi_vec3 radiance = ppmi_surface_emission(lights->scene, &surface, n);
+    const ppmi_vec3 radiance = covered_emission(lights, &surface, n);
     emission->power = vec3_scale(radiance, PPMI_PI * e->area * (float)e->sides);
     return true;
 }

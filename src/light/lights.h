@@ -19,7 +19,9 @@ uint64_t ppmi_lights_count(const ppmi_lights *lights);
 /* Light that arrives at a point from one sampled emitter, before visibility. */
 typedef struct ppmi_light_sample {
     ppmi_vec3 wi;       /* towards the light, unit */
-    float distance;     /* free way that must be clear; INFINITY for far lights */
+    ppmi_vec3 target;   /* point on the light, moved off its surface by the error bound; not set for
+                           far lights */
+    bool is_far;        /* directional light or environment */
     ppmi_vec3 radiance; /* for delta lights: irradiance on a plane that faces them */
     float pdf;          /* by solid angle, choice included; of the choice alone for delta lights */
     bool is_delta;

@@ -68,9 +68,9 @@ static inline ppmi_vec2 ppmi_sample_triangle(float u, float v)
 /* Power heuristic, exponent 2 (Veach 1997, section 9.2.4). */
 static inline float ppmi_mis_weight(float pdf, float other_pdf)
 {
-    if (isinf(pdf)) return 1.0f;
-    const float a = pdf * pdf, b = other_pdf * other_pdf;
-    return a + b > 0.0f ? a / (a + b) : 0.0f;
+    if (!(pdf > 0.0f)) return 0.0f;
+    const float ratio = other_pdf / pdf; /* the densities' own squares may overflow */
+    return isinf(pdf) ? 1.0f : 1.0f / (1.0f + ratio * ratio);
 }
 
 #endif

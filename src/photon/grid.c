@@ -198,11 +198,14 @@ static inline uint64_t cell_key(uint64_t code, uint32_t level)
     return code >> (3 * level) | (uint64_t)1 << (63 - 3 * level);
 }
 
+/* The eight cells of a block of two by two by two lie side by side: a look-up visits neighbours. */
 static inline uint64_t slot_of(const ppmi_photon_grid *grid, uint64_t key)
 {
-    key ^= key >> 32;
-    key *= 0x9e3779b97f4a7c15u;
-    return (key ^ key >> 29) & grid->table_mask;
+    uint64_t block = key >> 3;
+    block ^= block >> 32;
+    block *= 0x9e3779b97f4a7c15u;
+    block ^= block >> 29;
+    return (block << 3 | (key & 7)) & grid->table_mask;
 }
 
 static void insert(ppmi_photon_grid *grid, uint64_t key, uint32_t begin, uint32_t end)

@@ -122,7 +122,8 @@ static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *opt
                                                   .radiance = {1.0f, 1.0f, 1.0f}};
         status = ppm_scene_set_environment(scene, &environment);
         ppmi_log(scene->context, PPM_LOG_INFO,
-                 "no light in the scene: lit by a uniform environment of 1 nit");
+                 "no light in the scene but emissive textures at most: lit by a uniform "
+                 "environment of 1 nit");
     }
     return status;
 }

@@ -50,10 +50,11 @@ static ppmi_vec3 position_at(const ppmi_primitive *primitive, uint32_t vertex)
     return vec3_load(primitive->positions + 3 * (size_t)vertex);
 }
 
-/* Coordinates beyond this overflow when squared. */
+/* Finite, and no square overflows. */
 static bool is_usable(ppmi_vec3 p)
 {
-    return vec3_max_abs(p) < 1e15f;
+    const float most = 1e15f;
+    return fabsf(p.x) < most && fabsf(p.y) < most && fabsf(p.z) < most;
 }
 
 /* Copies the triangles that can be hit, growing the mesh's bounds by them. */
@@ -136,8 +137,6 @@ static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *des
                                  uint32_t default_material, ppmi_mesh *mesh, mesh_faults *faults)
 {
     ppmi_primitive *primitive = &mesh->primitives[index];
-    const ppm_status status = check_primitive(scene, desc, index, mesh->name);
-    if (status != PPM_STATUS_OK) return status;
     primitive->material = desc->material > 0 ? desc->material - 1 : default_material;
     if (desc->triangle_count == 0) return PPM_STATUS_OK;
     primitive->vertex_count = desc->vertex_count;
@@ -184,11 +183,9 @@ static ppm_status find_default_material(ppm_scene *scene, const ppm_mesh_desc *d
         is_needed = is_needed || desc->primitives[i].material == 0;
     }
     if (!is_needed) return PPM_STATUS_OK;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (strcmp(scene->materials[i].name, "(default)") == 0) {
-            *out_index = i;
-            return PPM_STATUS_OK;
-        }
+    if (scene->default_material > 0) {
+        *out_index = scene->default_material - 1;
+        return PPM_STATUS_OK;
     }
     ppm_material_desc material;
     ppm_material_desc_init(&material);
@@ -196,8 +193,10 @@ static ppm_status find_default_material(ppm_scene *scene, const ppm_mesh_desc *d
     material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.8f;
     ppm_material_id id;
     const ppm_status status = ppm_scene_add_material(scene, &material, &id);
-    if (status == PPM_STATUS_OK) *out_index = id - 1;
-    return status;
+    if (status != PPM_STATUS_OK) return status;
+    scene->default_material = id;
+    *out_index = id - 1;
+    return PPM_STATUS_OK;
 }
 
 ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_mesh_id *out_id)
@@ -209,6 +208,10 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
         return PPM_STATUS_INVALID_ARGUMENT;
     }
     const char *name = desc->name ? desc->name : "";
+    for (uint32_t i = 0; i < desc->primitive_count && status == PPM_STATUS_OK; i++) {
+        status = check_primitive(scene, &desc->primitives[i], i, name);
+    }
+    if (status != PPM_STATUS_OK) return status;
     uint32_t default_material;
     status = find_default_material(scene, desc, &default_material);
     if (status != PPM_STATUS_OK) return status;
@@ -283,6 +286,8 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
         .mesh = desc->mesh - 1,
         .to_world = to_world,
         .normals = normal_transform(&to_world, determinant),
+        .scale = ppmi_max(vec3_length(to_world.x),
+                          ppmi_max(vec3_length(to_world.y), vec3_length(to_world.z))),
         .is_mirrored = determinant < 0.0f,
     };
     *out_id = ++scene->instance_count;

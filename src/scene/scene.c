@@ -129,6 +129,14 @@ static ppm_status check_texture(const ppm_scene *scene, const char *slot,
                          "material: %s texture: image %u of %u, uv set %u of %u", slot,
                          texture->image, scene->image_count, texture->uv_set, PPM_MAX_UV_SETS);
     }
+    const bool modes_are_known =
+        texture->wrap_u >= PPM_WRAP_REPEAT && texture->wrap_u <= PPM_WRAP_MIRROR &&
+        texture->wrap_v >= PPM_WRAP_REPEAT && texture->wrap_v <= PPM_WRAP_MIRROR &&
+        texture->filter >= PPM_FILTER_LINEAR && texture->filter <= PPM_FILTER_NEAREST;
+    if (!modes_are_known) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "material: %s texture: unknown wrap mode or filter", slot);
+    }
     if (texture->has_transform && !all_in(texture->uv_transform, 6, -1e18f, 1e18f)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "material: %s texture: the uv transform is not finite", slot);
@@ -186,6 +194,13 @@ static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc 
                              desc->name ? desc->name : "", ranges[i].name, (double)ranges[i].low,
                              (double)ranges[i].high);
         }
+    }
+    if (desc->alpha_mode < PPM_ALPHA_OPAQUE || desc->alpha_mode > PPM_ALPHA_BLEND ||
+        desc->transmission_kind < PPM_TRANSMISSION_SOLID ||
+        desc->transmission_kind > PPM_TRANSMISSION_THIN) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "material '%s': unknown alpha mode or kind of transmission",
+                         desc->name ? desc->name : "");
     }
     return PPM_STATUS_OK;
 }
@@ -296,15 +311,22 @@ bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *ou
     return out_min->x <= out_max->x;
 }
 
-/* Calls count with each emissive primitive that an instance uses. */
-static uint64_t emissive_triangle_count(const ppm_scene *scene)
+static bool is_decoration(const ppmi_material *material)
+{
+    return material->desc.emission_texture.image > 0 &&
+           vec3_max_component(vec3_load(material->desc.emission)) <= 1.0f;
+}
+
+static uint64_t emissive_triangle_count(const ppm_scene *scene, bool with_decoration)
 {
     uint64_t count = 0;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
         for (uint32_t k = 0; k < mesh->primitive_count; k++) {
             const ppmi_primitive *primitive = &mesh->primitives[k];
-            if (scene->materials[primitive->material].emits) count += primitive->triangle_count;
+            const ppmi_material *material = &scene->materials[primitive->material];
+            if (!material->emits || (is_decoration(material) && !with_decoration)) continue;
+            count += primitive->triangle_count;
         }
     }
     return count;
@@ -316,7 +338,7 @@ bool ppmi_scene_has_light(const ppm_scene *scene)
     for (uint32_t i = 0; i < scene->punctual_count; i++) {
         if (!vec3_is_black(scene->punctuals[i].intensity)) return true;
     }
-    return emissive_triangle_count(scene) > 0;
+    return emissive_triangle_count(scene, false) > 0;
 }
 
 ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
@@ -331,7 +353,7 @@ ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
         .materials = scene->material_count,
         .textures = scene->image_count,
         .cameras = scene->camera_count,
-        .lights = scene->punctual_count + emissive_triangle_count(scene),
+        .lights = scene->punctual_count + emissive_triangle_count(scene, true),
         .has_light = ppmi_scene_has_light(scene),
     };
     if (scene->environment.is_set && !vec3_is_black(scene->environment.radiance)) info.lights++;

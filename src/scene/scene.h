@@ -57,6 +57,7 @@ typedef struct ppmi_instance {
     uint32_t mesh; /* index */
     ppmi_transform to_world;
     ppmi_transform normals; /* takes normals to normals, up to length */
+    float scale;            /* longest column of to_world: how much it enlarges */
     bool is_mirrored;       /* negative determinant: the winding is reversed */
 } ppmi_instance;
 
@@ -95,13 +96,17 @@ struct ppm_scene {
     ppmi_camera *cameras;
     ppmi_punctual *punctuals;
     ppmi_environment environment;
+    ppm_material_id default_material; /* of primitives without one; 0: not made yet */
     bool is_frozen;
 };
 
 /* World bounds of all instances; false when there is nothing. */
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
-/* Whether anything shines: environment, punctual light or emissive material in use. */
+/* Whether anything shines that is meant to light the scene: an environment, a punctual light, or an
+ * emissive material in use that has no texture or is brighter than 1 nit. Emissive textures within
+ * 0 .. 1 are decoration (a display, a glowing logo): files that have nothing else were made for
+ * viewers that bring their own light. */
 bool ppmi_scene_has_light(const ppm_scene *scene);
 
 /* Takes ownership of decoded pixels (u8 or f32 made by ppmi_alloc); on failure the caller keeps

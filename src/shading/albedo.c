@@ -11,8 +11,8 @@ static ppmi_albedo_pair integrate(float alpha, float cosine)
     double a = 0.0, b = 0.0;
     for (uint32_t i = 0; i < sample_count; i++) {
         const ppmi_sample4 sample = ppmi_sobol4(i, 0, 0);
-        const ppmi_vec3 h = ppmi_ggx_sample_visible(
-            alpha, wo, ppmi_unit_float(sample.bits[0]), ppmi_unit_float(sample.bits[1]));
+        const ppmi_vec3 h = ppmi_ggx_sample_visible(alpha, wo, ppmi_unit_float(sample.bits[0]),
+                                                    ppmi_unit_float(sample.bits[1]));
         const float cos_oh = vec3_dot(wo, h);
         const float cos_i = 2.0f * cos_oh * h.z - wo.z;
         if (cos_i <= 0.0f || cos_oh <= 0.0f) continue;

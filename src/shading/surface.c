@@ -43,22 +43,19 @@ void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_sur
     surface->u = hit->u;
     surface->v = hit->v;
 
-    const ppmi_transform *to_world = &surface->instance->to_world;
+    const ppmi_instance *instance = surface->instance;
     const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)hit->triangle;
     const float *positions = surface->primitive->positions;
-    const ppmi_vec3 a =
-        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[0]));
-    const ppmi_vec3 b =
-        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[1]));
-    const ppmi_vec3 c =
-        ppmi_transform_point(to_world, vec3_load(positions + 3 * (size_t)triangle[2]));
-    surface->position =
-        vec3_mad(vec3_mad(vec3_scale(a, 1.0f - hit->u - hit->v), b, hit->u), c, hit->v);
+    const ppmi_vec3 a = vec3_load(positions + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 ab = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[1]), a);
+    const ppmi_vec3 ac = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[2]), a);
+    const ppmi_vec3 local = vec3_mad(vec3_mad(a, ab, hit->u), ac, hit->v);
+    surface->position = ppmi_transform_point(&instance->to_world, local);
+    surface->ng = vec3_normalize(ppmi_transform_vector(&instance->normals, vec3_cross(ab, ac)));
 
-    const ppmi_vec3 ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
-    surface->ng = surface->instance->is_mirrored ? vec3_neg(ng) : ng;
-    const float magnitude = ppmi_max(ppmi_max(vec3_max_abs(a), vec3_max_abs(b)),
-                                  ppmi_max(vec3_max_abs(c), vec3_max_abs(to_world->origin)));
+    const float edge = ppmi_max(vec3_max_abs(ab), vec3_max_abs(ac));
+    const float magnitude = ppmi_max(instance->scale * ppmi_max(vec3_max_abs(local), edge),
+                                     vec3_max_abs(instance->to_world.origin));
     surface->error = error_ulps * FLT_EPSILON * magnitude;
     surface->ns = shading_normal(surface, triangle);
 }
@@ -166,8 +163,8 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
     if (texture->image > 0) {
         const ppmi_texel texel =
             ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
-        radiance = vec3_mul(radiance,
-                            vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f), ppmi_max(texel.b, 0.0f)));
+        radiance = vec3_mul(radiance, vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f),
+                                           ppmi_max(texel.b, 0.0f)));
     }
     return radiance;
 }

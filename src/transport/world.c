@@ -73,6 +73,21 @@ float ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray)
     return 0.0f;
 }
 
+/* From surface to light. Both ends are moved off their surfaces; what is left of rounding grows
+ * with the distance, and is taken off it. */
+static ppmi_ray shadow_ray(const ppmi_surface *surface, const ppmi_light_sample *light)
+{
+    const float rounding = 4e-6f;
+    ppmi_ray ray = ppmi_surface_ray(surface, light->wi);
+    if (light->is_far) return ray;
+    const ppmi_vec3 way = vec3_sub(light->target, ray.origin);
+    const float distance = vec3_length(way);
+    if (!(distance > 0.0f)) return ray;
+    ray.direction = vec3_scale(way, 1.0f / distance);
+    ray.t_max = distance * (1.0f - rounding);
+    return ray;
+}
+
 ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_surface *surface,
                                  const ppmi_bsdf *bsdf)
 {
@@ -89,9 +104,7 @@ ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_surface *surfac
     const ppmi_vec3 f =
         ppmi_bsdf_eval(bsdf, world->albedo, light.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
     if (vec3_is_black(f)) return black;
-    ppmi_ray ray = ppmi_surface_ray(surface, light.wi);
-    ray.t_max = light.distance;
-    const float visibility = ppmi_walk_visibility(walker, ray);
+    const float visibility = ppmi_walk_visibility(walker, shadow_ray(surface, &light));
     if (visibility <= 0.0f) return black;
     const float bsdf_pdf = light.is_delta ? 0.0f : ppmi_bsdf_pdf(bsdf, light.wi, PPMI_LOBE_ALL);
     const float weight = fabsf(ppmi_bsdf_cosine(bsdf, light.wi)) * visibility *

@@ -1,10 +1,10 @@
 /* Processes for the tests of the program. */
 #include "cli/program.h"
 
-#include <errno.h>
 #include <ftw.h>
 #include <poll.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -116,6 +116,13 @@ void wait_for_text(test_process *process, const char *text)
     while (!strstr(process->err, text)) {
         if (take_some(process) == 0) fail_msg("no '%s' in:\n%s", text, process->err);
     }
+}
+
+bool has_ended(const test_process *process)
+{
+    siginfo_t info = {0};
+    const int flags = WEXITED | WNOHANG | WNOWAIT;
+    return waitid(P_PID, (id_t)process->pid, &info, flags) != 0 || info.si_pid == process->pid;
 }
 
 int wait_for_end(test_process *process)

@@ -2,6 +2,7 @@
 #ifndef TESTS_CLI_PROGRAM_H
 #define TESTS_CLI_PROGRAM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <sys/types.h>
 
@@ -33,6 +34,8 @@ void start_program(test_process *process, const char *arguments);
 void start_wrapped_program(test_process *process, const char *before, const char *arguments);
 /* Waits until standard error contains text; fails the test when the program ends before. */
 void wait_for_text(test_process *process, const char *text);
+/* Whether it has ended by itself, without waiting. */
+bool has_ended(const test_process *process);
 /* Waits for the end; returns the exit status as in outcome. err is complete then. */
 int wait_for_end(test_process *process);
 

@@ -1,4 +1,5 @@
 /* What a finished render leaves: pictures, statistics, messages. */
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -6,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -212,6 +214,22 @@ static void statistics_say_what_was_done(void **state)
     json_decref(root);
 }
 
+/* Renamed over, a device or a pipe would be lost to everyone else. */
+static void statistics_are_written_into_a_pipe_not_over_it(void **state)
+{
+    (void)state;
+    assert_int_equal(mkfifo("pipe.json", 0666), 0);
+    const int pipe_end = open("pipe.json", O_RDWR); /* so that opening it does not wait */
+    assert_done(QUICK "--stats pipe.json tiny.gltf");
+    struct stat info;
+    assert_int_equal(stat("pipe.json", &info), 0);
+    assert_true(S_ISFIFO(info.st_mode));
+    json_t *const root = json_loadfd(pipe_end, JSON_DISABLE_EOF_CHECK, NULL);
+    assert_non_null(root);
+    json_decref(root);
+    close(pipe_end);
+}
+
 static double lights_with(const char *arguments)
 {
     assert_done(arguments);
@@ -306,6 +324,7 @@ int main(void)
         cmocka_unit_test(a_path_tracer_can_be_chosen),
         cmocka_unit_test(statistics_have_every_field),
         cmocka_unit_test(statistics_say_what_was_done),
+        cmocka_unit_test(statistics_are_written_into_a_pipe_not_over_it),
         cmocka_unit_test(an_environment_adds_to_the_lights_of_the_file),
         cmocka_unit_test(a_time_of_nothing_still_gives_one_pass),
         cmocka_unit_test(quiet_says_nothing),

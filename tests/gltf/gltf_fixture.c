@@ -10,8 +10,7 @@ static void keep_message(void *user, ppm_log_level level, const char *message)
 {
     gltf_fixture *f = user;
     const size_t room = sizeof f->log - f->log_length;
-    const int n =
-        snprintf(f->log + f->log_length, room, "%c %s\n", "?EWID"[level], message);
+    const int n = snprintf(f->log + f->log_length, room, "%c %s\n", "?EWID"[level], message);
     if (n > 0 && (size_t)n < room) f->log_length += (size_t)n;
 }
 

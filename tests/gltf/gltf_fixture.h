@@ -54,7 +54,8 @@ int gltf_logged(const gltf_fixture *f, char level, const char *text);
 
 #define assert_gltf_logged(f, level, text)                                                         \
     do {                                                                                           \
-        if (!gltf_logged(f, level, text)) fail_msg("not logged: %c %s\nlog:\n%s", level, text, (f)->log); \
+        if (!gltf_logged(f, level, text))                                                          \
+            fail_msg("not logged: %c %s\nlog:\n%s", level, text, (f)->log);                        \
     } while (0)
 #define assert_gltf_status(f, status, expected)                                                    \
     do {                                                                                           \

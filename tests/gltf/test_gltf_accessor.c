@@ -67,12 +67,13 @@ static void the_lowest_signed_integer_is_minus_one(void **state)
 {
     gltf_fixture *f = *state;
     static const int8_t i8[] = {0, 0, 0, -128, 0, 0, 0, 127, 0};
-    assert_gltf_status(f,
-                       gltf_import_primitive(f, POSITION,
-                                             "{'bufferView':0,'componentType':5120,'normalized':true,"
-                                             "'count':3,'type':'VEC3'}",
-                                             "{'buffer':0,'byteLength':9}", i8, sizeof i8),
-                       PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION,
+                              "{'bufferView':0,'componentType':5120,'normalized':true,"
+                              "'count':3,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':9}", i8, sizeof i8),
+        PPM_STATUS_OK);
     assert_float_equal(first(f)->positions[3], -1.0f, 0.0f);
 }
 
@@ -142,15 +143,16 @@ static void interleaved_attributes_are_read(void **state)
 static void colors_of_three_components_are_opaque(void **state)
 {
     gltf_fixture *f = *state;
-    static const float data[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, .1f, .2f, .3f, .4f, .5f, .6f, .7f, .8f, .9f};
-    assert_gltf_status(f,
-                       gltf_import_primitive(
-                           f, "'attributes':{'POSITION':0,'COLOR_0':1}",
-                           "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-                           "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
-                           "'type':'VEC3'}",
-                           "{'buffer':0,'byteLength':72}", data, sizeof data),
-                       PPM_STATUS_OK);
+    static const float data[] = {0,   0,   0,   1,   0,   0,   0,   1,   0,
+                                 .1f, .2f, .3f, .4f, .5f, .6f, .7f, .8f, .9f};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, "'attributes':{'POSITION':0,'COLOR_0':1}",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
+                              "'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':72}", data, sizeof data),
+        PPM_STATUS_OK);
     static const float expected[] = {.1f, .2f, .3f, 1, .4f, .5f, .6f, 1};
     assert_floats(first(f)->colors, expected, 8);
 }
@@ -159,14 +161,14 @@ static void tangents_without_normals_are_ignored(void **state)
 {
     gltf_fixture *f = *state;
     static const float data[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
-    assert_gltf_status(f,
-                       gltf_import_primitive(
-                           f, "'attributes':{'POSITION':0,'TANGENT':1}",
-                           "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-                           "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
-                           "'type':'VEC4'}",
-                           "{'buffer':0,'byteLength':84}", data, sizeof data),
-                       PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, "'attributes':{'POSITION':0,'TANGENT':1}",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':3,"
+                              "'type':'VEC4'}",
+                              "{'buffer':0,'byteLength':84}", data, sizeof data),
+        PPM_STATUS_OK);
     assert_null(first(f)->tangents);
     assert_null(first(f)->normals);
 }
@@ -201,10 +203,10 @@ static void sparse_accessors_without_a_buffer_view_start_from_zeros(void **state
 {
     gltf_fixture *f = *state;
     static const float expected[] = {0, 0, 0, 7, 0, 0, 0, 9, 0};
-    assert_gltf_status(f,
-                       gltf_import_primitive(f, POSITION, SPARSE("", "5121", "2"), SPARSE_VIEWS,
-                                             &sparse_data, 64),
-                       PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION, SPARSE("", "5121", "2"), SPARSE_VIEWS, &sparse_data, 64),
+        PPM_STATUS_OK);
     assert_floats(first(f)->positions, expected, 9);
 }
 
@@ -221,7 +223,8 @@ static void sparse_faults_are_errors(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         assert_gltf_status(
-            f, gltf_import_primitive(f, POSITION, cases[i].accessor, SPARSE_VIEWS, &sparse_data, 64),
+            f,
+            gltf_import_primitive(f, POSITION, cases[i].accessor, SPARSE_VIEWS, &sparse_data, 64),
             PPM_STATUS_INPUT_INVALID);
         assert_gltf_logged(f, 'E', cases[i].message);
         gltf_reset(f);
@@ -286,8 +289,8 @@ static void an_accessor_that_does_not_exist_is_refused(void **state)
                                              "{'componentType':5126,'count':3,'type':'VEC3'}",
                                              "{'buffer':0,'byteLength':36}", triangle, 36),
                        PPM_STATUS_INPUT_INVALID);
-    assert_gltf_logged(
-        f, 'E', "meshes[0].primitives[0].attributes.POSITION: accessors[7] does not exist");
+    assert_gltf_logged(f, 'E',
+                       "meshes[0].primitives[0].attributes.POSITION: accessors[7] does not exist");
 }
 
 static void attributes_of_another_length_are_refused(void **state)
@@ -406,14 +409,14 @@ static void points_and_lines_are_left_out_with_a_warning(void **state)
 static void compressed_geometry_without_a_fallback_is_unsupported(void **state)
 {
     gltf_fixture *f = *state;
-    assert_gltf_status(
-        f,
-        gltf_import_primitive(f,
-                              POSITION ",'extensions':{'KHR_draco_mesh_compression':{"
-                                       "'bufferView':0,'attributes':{'POSITION':0}}}",
-                              "{'componentType':5126,'count':3,'type':'VEC3'}",
-                              "{'buffer':0,'byteLength':36}", triangle, 36),
-        PPM_STATUS_INPUT_UNSUPPORTED);
+    assert_gltf_status(f,
+                       gltf_import_primitive(f,
+                                             POSITION
+                                             ",'extensions':{'KHR_draco_mesh_compression':{"
+                                             "'bufferView':0,'attributes':{'POSITION':0}}}",
+                                             "{'componentType':5126,'count':3,'type':'VEC3'}",
+                                             "{'buffer':0,'byteLength':36}", triangle, 36),
+                       PPM_STATUS_INPUT_UNSUPPORTED);
     assert_gltf_logged(f, 'E', "KHR_draco_mesh_compression");
 }
 

@@ -6,10 +6,11 @@
 
 #define PI 3.14159265358979323846f
 
-/* A document with one node for each item of a list of cameras or lights. */
+/* Documents of nodes, and of cameras or lights. */
 static ppm_status import_cameras(gltf_fixture *f, const char *nodes, const char *cameras)
 {
-    return gltf_importf(f, "{'asset':{'version':'2.0'},'nodes':[%s],'cameras':[%s]}", nodes, cameras);
+    return gltf_importf(f, "{'asset':{'version':'2.0'},'nodes':[%s],'cameras':[%s]}", nodes,
+                        cameras);
 }
 
 static ppm_status import_lights(gltf_fixture *f, const char *generator, const char *nodes,
@@ -29,7 +30,8 @@ static void perspective_cameras_are_read(void **state)
     gltf_fixture *f = *state;
     assert_gltf_status(
         f,
-        import_cameras(f, "{'camera':0,'name':'node','translation':[1,2,3]},{'camera':1,'name':'n'}",
+        import_cameras(f,
+                       "{'camera':0,'name':'node','translation':[1,2,3]},{'camera':1,'name':'n'}",
                        "{'type':'perspective','name':'main','perspective':"
                        "{'yfov':0.5,'znear':0.1,'aspectRatio':1.5}},"
                        "{'type':'perspective','perspective':{'yfov':1,'znear':0.1}}"),
@@ -96,13 +98,13 @@ static void a_node_of_no_size_has_no_camera(void **state)
 static void lights_have_the_defaults_of_the_extension(void **state)
 {
     gltf_fixture *f = *state;
-    assert_gltf_status(f,
-                       import_lights(f, "x",
-                                     "{" LIGHT("0") ",'name':'lamp'},{" LIGHT("1") "},{" LIGHT("2") "}",
-                                     "{'type':'point'},{'type':'spot','spot':{}},"
-                                     "{'type':'directional','name':'sun','color':[1,0.5,0],"
-                                     "'intensity':4}"),
-                       PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        import_lights(f, "x", "{" LIGHT("0") ",'name':'lamp'},{" LIGHT("1") "},{" LIGHT("2") "}",
+                      "{'type':'point'},{'type':'spot','spot':{}},"
+                      "{'type':'directional','name':'sun','color':[1,0.5,0],"
+                      "'intensity':4}"),
+        PPM_STATUS_OK);
     assert_int_equal(f->scene->punctual_count, 3);
     const ppmi_punctual *light = f->scene->punctuals;
     assert_string_equal(light[0].name, "lamp");
@@ -156,8 +158,9 @@ static void a_spot_of_blend_0_and_one_of_180_degrees_are_read(void **state)
     gltf_fixture *f = *state;
     assert_gltf_status(
         f,
-        import_lights(f, "x", "{" LIGHT("0") "}",
-                      "{'type':'spot','spot':{'innerConeAngle':1.5707964,'outerConeAngle':1.5707964}}"),
+        import_lights(
+            f, "x", "{" LIGHT("0") "}",
+            "{'type':'spot','spot':{'innerConeAngle':1.5707964,'outerConeAngle':1.5707964}}"),
         PPM_STATUS_OK);
     assert_int_equal(f->scene->punctual_count, 1);
     assert_float_equal(f->scene->punctuals[0].cos_outer, 0.0f, 1e-6f);

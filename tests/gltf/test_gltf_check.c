@@ -88,13 +88,15 @@ static void a_broken_element_that_nothing_uses_is_no_error(void **state)
 static void a_broken_element_in_use_is_an_error_that_names_both_places(void **state)
 {
     gltf_fixture *f = *state;
-    assert_gltf_status(f,
-                       gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}],"
-                                      "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
-                                      "'accessors':[{'componentType':5126,'count':'3','type':'VEC3'}]}"),
-                       PPM_STATUS_INPUT_INVALID);
-    assert_gltf_logged(f, 'E', "meshes[0].primitives[0].attributes.POSITION: broken: "
-                               "accessors[0].count: expected a number");
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}],"
+                       "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
+                       "'accessors':[{'componentType':5126,'count':'3','type':'VEC3'}]}"),
+        PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(f, 'E',
+                       "meshes[0].primitives[0].attributes.POSITION: broken: "
+                       "accessors[0].count: expected a number");
 }
 
 static void a_broken_optional_value_becomes_its_default(void **state)
@@ -102,16 +104,18 @@ static void a_broken_optional_value_becomes_its_default(void **state)
     gltf_fixture *f = *state;
     assert_gltf_status(
         f,
-        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'name':5}],"
-                       "'materials':[{'pbrMetallicRoughness':{'metallicFactor':'x',"
-                       "'roughnessFactor':0.25,'baseColorFactor':[1,1]},'normalTexture':{}}],"
-                       "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
-                       "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
-                       "'bufferViews':[{'buffer':0,'byteLength':36}],"
-                       "'buffers':[{'byteLength':36,'uri':'data:;base64,"
-                       "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}"),
+        gltf_import(f,
+                    "{" GLTF_HEAD "'nodes':[{'mesh':0,'name':5}],"
+                    "'materials':[{'pbrMetallicRoughness':{'metallicFactor':'x',"
+                    "'roughnessFactor':0.25,'baseColorFactor':[1,1]},'normalTexture':{}}],"
+                    "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
+                    "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
+                    "'bufferViews':[{'buffer':0,'byteLength':36}],"
+                    "'buffers':[{'byteLength':36,'uri':'data:;base64,"
+                    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}"),
         PPM_STATUS_OK);
-    assert_gltf_logged(f, 'W', "materials[0].pbrMetallicRoughness.metallicFactor: expected a number");
+    assert_gltf_logged(f, 'W',
+                       "materials[0].pbrMetallicRoughness.metallicFactor: expected a number");
     assert_gltf_logged(f, 'W', "materials[0].normalTexture.index: missing");
     assert_float_equal(f->scene->materials[0].desc.metallic, 1.0f, 0.0f);
     assert_float_equal(f->scene->materials[0].desc.roughness, 0.25f, 0.0f);
@@ -142,10 +146,10 @@ static void numbers_that_overflow_do_no_harm(void **state)
                                       "'nodes':[{'mesh':0,'extras':[-1e400]}]," GLTF_TRIANGLE "}"),
                        PPM_STATUS_OK);
     gltf_reset(f);
-    assert_gltf_status(f,
-                       gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'scale':[1e39,1,1]}],"
-                                      GLTF_TRIANGLE "}"),
-                       PPM_STATUS_INPUT_INVALID);
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'scale':[1e39,1,1]}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_INPUT_INVALID);
     assert_gltf_logged(f, 'E', "nodes[0].scale: the number is too large");
 }
 
@@ -154,15 +158,16 @@ static void large_integers_in_extensions_keep_their_value(void **state)
     gltf_fixture *f = *state;
     assert_gltf_status(
         f,
-        gltf_import(f, "{" GLTF_HEAD "'extensionsUsed':['KHR_materials_emissive_strength'],"
-                       "'materials':[{'emissiveFactor':[1,1,1],'extensions':{"
-                       "'KHR_materials_emissive_strength':{'emissiveStrength':3000000000}}}],"
-                       "'nodes':[{'mesh':0}],"
-                       "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
-                       "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
-                       "'bufferViews':[{'buffer':0,'byteLength':36}],"
-                       "'buffers':[{'byteLength':36,'uri':'data:;base64,"
-                       "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}"),
+        gltf_import(f,
+                    "{" GLTF_HEAD "'extensionsUsed':['KHR_materials_emissive_strength'],"
+                    "'materials':[{'emissiveFactor':[1,1,1],'extensions':{"
+                    "'KHR_materials_emissive_strength':{'emissiveStrength':3000000000}}}],"
+                    "'nodes':[{'mesh':0}],"
+                    "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
+                    "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
+                    "'bufferViews':[{'buffer':0,'byteLength':36}],"
+                    "'buffers':[{'byteLength':36,'uri':'data:;base64,"
+                    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}"),
         PPM_STATUS_OK);
     assert_float_equal(f->scene->materials[0].desc.emission[0], 3e9f, 1e3f);
 }

@@ -87,9 +87,9 @@ static void lies_in_glb_headers_are_refused(void **state)
     const size_t size = make_glb(bytes, &bin);
     const struct {
         size_t at, value;
-    } lies[] = {{8, 0},           {8, size + 4}, {8, 0xffffffff},         {12, 0xffffffff},
-                {12, 0},          {12, size},    {16, 0x004e4942},        {bin, 0xffffffff},
-                {bin, 32},        {bin, 40},     {bin + 4, 0x4e4f534a}};
+    } lies[] = {{8, 0},    {8, size + 4}, {8, 0xffffffff},      {12, 0xffffffff},
+                {12, 0},   {12, size},    {16, 0x004e4942},     {bin, 0xffffffff},
+                {bin, 32}, {bin, 40},     {bin + 4, 0x4e4f534a}};
     for (size_t i = 0; i < sizeof lies / sizeof lies[0]; ++i) {
         make_glb(bytes, &bin);
         put_u32(bytes + lies[i].at, lies[i].value);
@@ -144,7 +144,7 @@ static ppm_status import_with_uri(gltf_fixture *f, const char *uri)
 static void buffers_are_read_from_files_below_the_asset(void **state)
 {
     gltf_fixture *f = *state;
-    static const char *const uris[] = {"a b.bin", "a%20b.bin", "./x/../a%20b.bin",
+    static const char *const uris[] = {"a b.bin",          "a%20b.bin",          "./x/../a%20b.bin",
                                        "x\\/..\\/a b.bin", "x\\\\..\\\\a b.bin", "%61 b.bin"};
     gltf_write(f, "sub/a b.bin", triangle, sizeof triangle);
     char command[160];
@@ -159,8 +159,8 @@ static void buffers_are_read_from_files_below_the_asset(void **state)
 static void uris_that_leave_the_folder_are_refused(void **state)
 {
     gltf_fixture *f = *state;
-    static const char *const uris[] = {"../up.bin",     "%2e%2e/up.bin", "x/../../up.bin",
-                                       "..\\\\up.bin",  "./../up.bin",   "..%2Fup.bin",
+    static const char *const uris[] = {"../up.bin",          "%2e%2e/up.bin", "x/../../up.bin",
+                                       "..\\\\up.bin",       "./../up.bin",   "..%2Fup.bin",
                                        "a/b/../../../up.bin"};
     gltf_write(f, "up.bin", triangle, sizeof triangle);
     for (size_t i = 0; i < sizeof uris / sizeof uris[0]; ++i) {
@@ -177,9 +177,8 @@ static void absolute_paths_and_other_schemes_are_refused(void **state)
     gltf_write(f, "sub/a.bin", triangle, sizeof triangle);
     snprintf(absolute, sizeof absolute, "%s/sub/a.bin", f->folder);
     snprintf(file_uri, sizeof file_uri, "file://%s/sub/a.bin", f->folder);
-    const char *uris[] = {absolute,         file_uri,     "http://localhost/a.bin",
-                          "%2Ftmp/a.bin",   "c:/a.bin",   "//server/a.bin",
-                          "a.bin%00.txt",   ""};
+    const char *uris[] = {absolute,   file_uri,         "http://localhost/a.bin", "%2Ftmp/a.bin",
+                          "c:/a.bin", "//server/a.bin", "a.bin%00.txt",           ""};
     for (size_t i = 0; i < sizeof uris / sizeof uris[0]; ++i) {
         assert_gltf_status(f, import_with_uri(f, uris[i]), PPM_STATUS_INPUT_INVALID);
     }

@@ -45,7 +45,7 @@ static void numbers_have_their_value(void **state)
         const char *text;
         double value;
         bool is_integer;
-    } cases[] = {{"0", 0, true},      {"-12", -12, true}, {"2147483648", 2147483648.0, true},
+    } cases[] = {{"0", 0, true},      {"-12", -12, true},  {"2147483648", 2147483648.0, true},
                  {"1.5", 1.5, false}, {"2e2", 200, false}, {"-2.5E-1", -0.25, false}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         ppmi_gltf_json json = scan(cases[i].text);

@@ -64,10 +64,11 @@ static void children_are_placed_in_their_parents(void **state)
     gltf_fixture *f = *state;
     assert_gltf_status(
         f,
-        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'children':[1,2],'scale':[2,2,2]},"
-                       "{'mesh':0,'translation':[1,0,0]},"
-                       "{'translation':[0,1,0],'children':[3]},{'mesh':0,'name':'deep'}],"
-                       GLTF_TRIANGLE "}"),
+        gltf_import(
+            f,
+            "{" GLTF_HEAD "'nodes':[{'children':[1,2],'scale':[2,2,2]},"
+            "{'mesh':0,'translation':[1,0,0]},"
+            "{'translation':[0,1,0],'children':[3]},{'mesh':0,'name':'deep'}]," GLTF_TRIANGLE "}"),
         PPM_STATUS_OK);
     assert_int_equal(f->scene->mesh_count, 1);
     assert_int_equal(f->scene->instance_count, 2);
@@ -80,11 +81,11 @@ static void children_are_placed_in_their_parents(void **state)
 static void quaternions_need_not_have_unit_length(void **state)
 {
     gltf_fixture *f = *state;
-    assert_gltf_status(f,
-                       gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'rotation':[0,0,5,5],"
-                                      "'children':[1]},{'mesh':0,'rotation':[0,0,0,0]}],"
-                                      GLTF_TRIANGLE "}"),
-                       PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'rotation':[0,0,5,5],"
+                       "'children':[1]},{'mesh':0,'rotation':[0,0,0,0]}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
     assert_place(f, 0, vec3(1, 0, 0), vec3(0, 1, 0));
     assert_place(f, 1, vec3(1, 0, 0), vec3(0, 1, 0));
 }
@@ -130,7 +131,8 @@ static void cyclic_hierarchies_are_refused(void **state)
                        PPM_STATUS_INPUT_INVALID);
     gltf_reset(f); /* without a root to start from */
     assert_gltf_status(
-        f, gltf_import(f, "{'asset':{'version':'2.0'},'nodes':[{'children':[1]},{'children':[0]}]}"),
+        f,
+        gltf_import(f, "{'asset':{'version':'2.0'},'nodes':[{'children':[1]},{'children':[0]}]}"),
         PPM_STATUS_INPUT_INVALID);
     assert_gltf_logged(f, 'E', "cyclic");
 }
@@ -189,25 +191,24 @@ static void instancing_repeats_the_mesh(void **state)
     static const struct {
         float positions[9], translations[6];
         int16_t rotations[8]; /* none; a half turn about +Y */
-    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
-              {1, 0, 0, 2, 0, 0},
-              {0, 0, 0, 32767, 0, 32767, 0, 0}};
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 2, 0, 0}, {0, 0, 0, 32767, 0, 32767, 0, 0}};
     assert_gltf_status(
         f,
-        gltf_importf(f,
-                     "{" GLTF_HEAD "'extensionsUsed':['EXT_mesh_gpu_instancing'],"
-                     "'extensionsRequired':['EXT_mesh_gpu_instancing'],"
-                     "'nodes':[{'mesh':0,'translation':[0,0,5],'extensions':{"
-                     "'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':1,'ROTATION':2,"
-                     "'_ID':77}}}}],"
-                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
-                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-                     "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':2,'type':'VEC3'},"
-                     "{'bufferView':0,'byteOffset':60,'componentType':5122,'normalized':true,"
-                     "'count':2,'type':'VEC4'}],"
-                     "'bufferViews':[{'buffer':0,'byteLength':76}],"
-                     "'buffers':[{'byteLength':76,'uri':'%s'}]}",
-                     gltf_data_uri(&data, sizeof data)),
+        gltf_importf(
+            f,
+            "{" GLTF_HEAD "'extensionsUsed':['EXT_mesh_gpu_instancing'],"
+            "'extensionsRequired':['EXT_mesh_gpu_instancing'],"
+            "'nodes':[{'mesh':0,'translation':[0,0,5],'extensions':{"
+            "'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':1,'ROTATION':2,"
+            "'_ID':77}}}}],"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
+            "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+            "{'bufferView':0,'byteOffset':36,'componentType':5126,'count':2,'type':'VEC3'},"
+            "{'bufferView':0,'byteOffset':60,'componentType':5122,'normalized':true,"
+            "'count':2,'type':'VEC4'}],"
+            "'bufferViews':[{'buffer':0,'byteLength':76}],"
+            "'buffers':[{'byteLength':76,'uri':'%s'}]}",
+            gltf_data_uri(&data, sizeof data)),
         PPM_STATUS_OK);
     assert_int_equal(f->scene->instance_count, 2);
     assert_place(f, 0, vec3(1, 0, 0), vec3(2, 0, 5));
@@ -218,9 +219,9 @@ static void skins_and_animations_are_warned_about(void **state)
 {
     gltf_fixture *f = *state;
     assert_gltf_status(f,
-                       gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0,'skin':0}],"
-                                      "'skins':[{'joints':[0]}],'animations':[{}]," GLTF_TRIANGLE
-                                      "}"),
+                       gltf_import(f,
+                                   "{" GLTF_HEAD "'nodes':[{'mesh':0,'skin':0}],"
+                                   "'skins':[{'joints':[0]}],'animations':[{}]," GLTF_TRIANGLE "}"),
                        PPM_STATUS_OK);
     assert_gltf_logged(f, 'W', "1 skinned nodes");
     assert_gltf_logged(f, 'W', "1 animations");

@@ -1,0 +1,190 @@
+/* Imports every glTF of the development assets: nothing crashes, what is valid is read, and its
+ * geometry is what another implementation found (geometry.tsv). Skipped where they are absent. */
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "gltf_fixture.h"
+
+enum { MAX_PATH = 512 };
+
+typedef void (*visit_fn)(gltf_fixture *f, const char *path);
+
+static bool is_gltf(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0);
+}
+
+/* Calls visit for every glTF below a folder of the assets; path is relative to them. Returns how
+ * many there were. */
+static size_t visit_all(gltf_fixture *f, const char *folder, visit_fn visit)
+{
+    char full[MAX_PATH], path[MAX_PATH];
+    size_t count = 0;
+    snprintf(full, sizeof full, PPM_ASSETS_DIR "/%s", folder);
+    DIR *directory = opendir(full);
+    assert_non_null(directory);
+    for (const struct dirent *entry; (entry = readdir(directory));) {
+        struct stat info;
+        if (entry->d_name[0] == '.') continue;
+        assert_true((size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) <
+                    sizeof path);
+        assert_true((size_t)snprintf(full, sizeof full, PPM_ASSETS_DIR "/%s", path) < sizeof full);
+        if (stat(full, &info) != 0) continue;
+        if (S_ISDIR(info.st_mode)) {
+            count += visit_all(f, path, visit);
+        } else if (is_gltf(entry->d_name)) {
+            visit(f, path);
+            ++count;
+        }
+    }
+    closedir(directory);
+    return count;
+}
+
+static ppm_status import_asset(gltf_fixture *f, const char *path)
+{
+    char full[MAX_PATH];
+    snprintf(full, sizeof full, PPM_ASSETS_DIR "/%s", path);
+    gltf_reset(f);
+    return ppmi_gltf_import(f->context, f->scene, full, &f->options);
+}
+
+/* ---- any file -------------------------------------------------------------------------------- */
+
+static void import_anything(gltf_fixture *f, const char *path)
+{
+    const ppm_status status = import_asset(f, path);
+    const bool is_known = status == PPM_STATUS_OK || status == PPM_STATUS_INPUT_INVALID ||
+                          status == PPM_STATUS_INPUT_NOT_FOUND ||
+                          status == PPM_STATUS_INPUT_UNSUPPORTED;
+    if (!is_known) fail_msg("%s: %s\n%s", path, ppm_status_name(status), f->log);
+    if (status != PPM_STATUS_OK && !gltf_logged(f, 'E', path)) {
+        fail_msg("%s: no error names it\n%s", path, f->log);
+    }
+}
+
+static void broken_and_odd_files_end_in_a_status_and_a_message(void **state)
+{
+    assert_true(visit_all(*state, "bad", import_anything) > 30);
+    assert_true(visit_all(*state, "odd", import_anything) > 5);
+    assert_true(visit_all(*state, "validator", import_anything) > 50);
+}
+
+/* ---- valid files ----------------------------------------------------------------------------- */
+
+typedef struct expected {
+    unsigned long long triangles, lines, points;
+    float low[3], high[3];
+} expected;
+
+/* The row of geometry.tsv, or false. */
+static bool find_expected(const char *path, expected *e)
+{
+    char line[1024];
+    bool is_found = false;
+    FILE *file = fopen(PPM_ASSETS_DIR "/geometry.tsv", "r");
+    assert_non_null(file);
+    while (!is_found && fgets(line, sizeof line, file)) {
+        const size_t length = strlen(path);
+        if (strncmp(line, path, length) != 0 || line[length] != '\t') continue;
+        is_found = sscanf(line + length, "\t%llu\t%llu\t%llu\t%f,%f,%f\t%f,%f,%f", &e->triangles,
+                          &e->lines, &e->points, &e->low[0], &e->low[1], &e->low[2], &e->high[0],
+                          &e->high[1], &e->high[2]) == 9;
+    }
+    fclose(file);
+    return is_found;
+}
+
+static unsigned long long count_triangles(const ppm_scene *scene)
+{
+    unsigned long long count = 0;
+    for (uint32_t i = 0; i < scene->instance_count; ++i) {
+        const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
+        for (uint32_t k = 0; k < mesh->primitive_count; ++k) {
+            count += mesh->primitives[k].triangle_count;
+        }
+    }
+    return count;
+}
+
+static void compare_bounds(gltf_fixture *f, const char *path, const expected *e)
+{
+    ppm_scene_info info = {.size = sizeof info};
+    assert_int_equal(ppm_scene_get_info(f->scene, &info), PPM_STATUS_OK);
+    float size = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+        size = fmaxf(size, e->high[i] - e->low[i]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const float error =
+            fmaxf(fabsf(info.bounds_min[i] - e->low[i]), fabsf(info.bounds_max[i] - e->high[i]));
+        if (!(error <= 1e-3f * size)) {
+            fail_msg("%s: axis %d is %g .. %g, expected %g .. %g", path, i,
+                     (double)info.bounds_min[i], (double)info.bounds_max[i], (double)e->low[i],
+                     (double)e->high[i]);
+        }
+    }
+}
+
+static void import_valid(gltf_fixture *f, const char *path)
+{
+    expected e;
+    const ppm_status status = import_asset(f, path);
+    if (status == PPM_STATUS_INPUT_UNSUPPORTED && gltf_logged(f, 'E', "is not supported")) return;
+    if (status != PPM_STATUS_OK) fail_msg("%s: %s\n%s", path, ppm_status_name(status), f->log);
+    if (!find_expected(path, &e)) return;
+    /* the table counts triangles of no area, which the scene drops */
+    const unsigned long long got = count_triangles(f->scene);
+    const bool has_dropped =
+        gltf_logged(f, 'D', "of no area left out") || gltf_logged(f, 'W', "not a finite number");
+    if (has_dropped ? got > e.triangles : got != e.triangles) {
+        fail_msg("%s: %llu triangles, expected %llu", path, got, e.triangles);
+    }
+    /* in the table's boxes are points and lines, but not what EXT_mesh_gpu_instancing places */
+    const bool is_instanced = strstr(path, "nstanc") && f->scene->instance_count > 100;
+    if (e.lines == 0 && e.points == 0 && !is_instanced) compare_bounds(f, path, &e);
+}
+
+static void valid_files_are_read_as_others_read_them(void **state)
+{
+    assert_true(visit_all(*state, "gltf", import_valid) > 80);
+    assert_true(visit_all(*state, "gltf-blender", import_valid) > 30);
+    assert_true(visit_all(*state, "scenes", import_valid) > 1);
+}
+
+static void the_helmet_has_the_images_of_its_material(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f, import_asset(f, "gltf/DamagedHelmet.glb"), PPM_STATUS_OK);
+    const ppm_material_desc *m = &f->scene->materials[0].desc;
+    assert_int_equal(f->scene->material_count, 1);
+    assert_int_equal(f->scene->image_count, 4); /* the fifth is the occlusion map */
+    assert_int_not_equal(m->base_color_texture.image, 0);
+    assert_int_not_equal(m->metallic_roughness_texture.image, 0);
+    assert_int_not_equal(m->normal_texture.image, 0);
+    assert_int_not_equal(m->emission_texture.image, 0);
+}
+
+int main(void)
+{
+    struct stat info;
+    if (stat(PPM_ASSETS_DIR "/geometry.tsv", &info) != 0) {
+        printf("skipped: no development assets at %s\n", PPM_ASSETS_DIR);
+        return 77;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(broken_and_odd_files_end_in_a_status_and_a_message,
+                                        gltf_setup, gltf_teardown),
+        cmocka_unit_test_setup_teardown(valid_files_are_read_as_others_read_them, gltf_setup,
+                                        gltf_teardown),
+        cmocka_unit_test_setup_teardown(the_helmet_has_the_images_of_its_material, gltf_setup,
+                                        gltf_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,251 @@
+/* importers/gltf/gltf_material.c */
+#include <math.h>
+#include <stdio.h>
+
+#include "gltf_fixture.h"
+
+/* Imports a triangle with one material and returns what the scene got. */
+static const ppm_material_desc *import_material(gltf_fixture *f, const char *generator,
+                                                const char *material)
+{
+    gltf_reset(f);
+    assert_gltf_status(
+        f,
+        gltf_importf(f,
+                     "{'asset':{'version':'2.0','generator':'%s'},'nodes':[{'mesh':0}],"
+                     "'materials':[{%s}],'textures':[{'source':0,'sampler':0}],"
+                     "'samplers':[{'magFilter':9728,'wrapS':33071,'wrapT':33648}],"
+                     "'images':[{'uri':'data:image/"
+                     "png;base64,"
+                     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNgYGAAAAAEAAH2FzhVA"
+                     "AAAAElFTkSuQmCC'}],"
+                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
+                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
+                     "'bufferViews':[{'buffer':0,'byteLength':36}],"
+                     "'buffers':[{'byteLength':36,'uri':'data:;base64,"
+                     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}",
+                     generator, material),
+        PPM_STATUS_OK);
+    assert_int_equal(f->scene->material_count, 1);
+    return &f->scene->materials[0].desc;
+}
+
+static void assert_values(const float *got, size_t count, const float *expected)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (!(fabsf(got[i] - expected[i]) < 1e-6f)) {
+            fail_msg("value %zu is %g, expected %g", i, (double)got[i], (double)expected[i]);
+        }
+    }
+}
+
+static void the_defaults_are_those_of_the_specification(void **state)
+{
+    const ppm_material_desc *m = import_material(*state, "x", "");
+    assert_values(m->base_color, 4, (const float[]){1, 1, 1, 1});
+    assert_values(&m->metallic, 1, (const float[]){1});
+    assert_values(&m->roughness, 1, (const float[]){1});
+    assert_values(m->emission, 3, (const float[]){0, 0, 0});
+    assert_values(&m->ior, 1, (const float[]){1.5f});
+    assert_values(&m->specular, 1, (const float[]){1});
+    assert_values(m->specular_color, 3, (const float[]){1, 1, 1});
+    assert_values(&m->transmission, 1, (const float[]){0});
+    assert_values(&m->attenuation_distance_m, 1, (const float[]){0});
+    assert_values(&m->alpha_cutoff, 1, (const float[]){0.5f});
+    assert_int_equal(m->alpha_mode, PPM_ALPHA_OPAQUE);
+    assert_int_equal(m->double_sided, 0);
+    assert_int_equal(m->base_color_texture.image, 0);
+}
+
+static void primitives_without_a_material_are_white_and_rough(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f, gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}]," GLTF_TRIANGLE "}"),
+                       PPM_STATUS_OK);
+    assert_int_equal(f->scene->material_count, 1);
+    assert_values(f->scene->materials[0].desc.base_color, 4, (const float[]){1, 1, 1, 1});
+    assert_values(&f->scene->materials[0].desc.metallic, 1, (const float[]){1});
+    assert_values(&f->scene->materials[0].desc.roughness, 1, (const float[]){1});
+}
+
+static void core_values_are_read(void **state)
+{
+    const ppm_material_desc *m = import_material(
+        *state, "x",
+        "'name':'paint','pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],"
+        "'metallicFactor':0,'roughnessFactor':0.25},'emissiveFactor':[0.5,1,0],"
+        "'alphaMode':'MASK','alphaCutoff':0.75,'doubleSided':true,"
+        "'normalTexture':{'index':0,'scale':2},"
+        "'extensions':{'KHR_materials_emissive_strength':{'emissiveStrength':8}}");
+    assert_values(m->base_color, 4, (const float[]){0.1f, 0.2f, 0.3f, 0.4f});
+    assert_values(&m->metallic, 1, (const float[]){0});
+    assert_values(&m->roughness, 1, (const float[]){0.25f});
+    assert_values(m->emission, 3, (const float[]){4, 8, 0});
+    assert_int_equal(m->alpha_mode, PPM_ALPHA_MASK);
+    assert_values(&m->alpha_cutoff, 1, (const float[]){0.75f});
+    assert_int_not_equal(m->double_sided, 0);
+    assert_values(&m->normal_scale, 1, (const float[]){2});
+    const gltf_fixture *f = *state;
+    assert_string_equal(f->scene->materials[0].name, "paint");
+}
+
+static void dielectric_extensions_are_read(void **state)
+{
+    const ppm_material_desc *m = import_material(
+        *state, "x",
+        "'extensions':{'KHR_materials_ior':{'ior':1.33},'KHR_materials_specular':{"
+        "'specularFactor':0.5,'specularColorFactor':[2,1,0],'specularTexture':{'index':0},"
+        "'specularColorTexture':{'index':0,'texCoord':1}},"
+        "'KHR_materials_transmission':{'transmissionFactor':0.75},'KHR_materials_volume':{"
+        "'thicknessFactor':1,'attenuationDistance':0.5,'attenuationColor':[1,0.5,0.25]}}");
+    assert_values(&m->ior, 1, (const float[]){1.33f});
+    assert_values(&m->specular, 1, (const float[]){0.5f});
+    assert_values(m->specular_color, 3, (const float[]){2, 1, 0});
+    assert_values(&m->transmission, 1, (const float[]){0.75f});
+    assert_values(&m->attenuation_distance_m, 1, (const float[]){0.5f});
+    assert_values(m->attenuation_color, 3, (const float[]){1, 0.5f, 0.25f});
+    assert_int_not_equal(m->specular_texture.image, 0);
+    assert_int_not_equal(m->specular_color_texture.image, 0);
+    /* one holds numbers and the other colours */
+    assert_int_not_equal(m->specular_texture.image, m->specular_color_texture.image);
+    assert_int_equal(m->specular_color_texture.uv_set, 1);
+}
+
+static void an_ior_of_0_keeps_its_meaning(void **state)
+{
+    const ppm_material_desc *m =
+        import_material(*state, "x", "'extensions':{'KHR_materials_ior':{'ior':0}}");
+    assert_values(&m->ior, 1, (const float[]){0});
+}
+
+static void values_out_of_range_are_brought_into_it_with_a_warning(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m = import_material(
+        f, "x",
+        "'pbrMetallicRoughness':{'baseColorFactor':[2,-1,0.5,1],'metallicFactor':7},"
+        "'emissiveFactor':[-1,0,0],'extensions':{'KHR_materials_ior':{'ior':0.5}}");
+    assert_values(m->base_color, 4, (const float[]){1, 0, 0.5f, 1});
+    assert_values(&m->metallic, 1, (const float[]){1});
+    assert_values(m->emission, 3, (const float[]){0, 0, 0});
+    assert_values(&m->ior, 1, (const float[]){1});
+    assert_gltf_logged(f, 'W', "materials[0]: baseColorFactor is brought into 0 .. 1");
+    assert_gltf_logged(f, 'W', "metallicFactor");
+    assert_gltf_logged(f, 'W', "emissiveFactor");
+    assert_gltf_logged(f, 'W', "ior");
+}
+
+static void an_unlit_material_shines_with_its_base_colour(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x",
+                        "'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],"
+                        "'baseColorTexture':{'index':0}},'emissiveFactor':[1,1,1],"
+                        "'extensions':{'KHR_materials_unlit':{}}");
+    assert_values(m->emission, 3, (const float[]){0.1f, 0.2f, 0.3f});
+    assert_values(m->base_color, 4, (const float[]){0, 0, 0, 0.4f});
+    assert_values(&m->metallic, 1, (const float[]){0});
+    assert_values(&m->specular, 1, (const float[]){0});
+    assert_int_equal(m->emission_texture.image, m->base_color_texture.image);
+    assert_gltf_logged(f, 'I', "KHR_materials_unlit");
+}
+
+/* ---- glass ----------------------------------------------------------------------------------- */
+
+#define GLASS "'extensions':{'KHR_materials_transmission':{'transmissionFactor':1}"
+static const char blender[] = "Khronos glTF Blender I/O v4.0.44";
+
+static void check_glass(gltf_fixture *f, const char *generator, int32_t policy, double thickness,
+                        int32_t expected)
+{
+    char material[200];
+    f->options.transmission = policy;
+    snprintf(material, sizeof material, GLASS ",'KHR_materials_volume':{'thicknessFactor':%g}}",
+             thickness);
+    assert_int_equal(import_material(f, generator, material)->transmission_kind, expected);
+    assert_gltf_logged(f, 'I', expected == PPM_TRANSMISSION_SOLID ? "1 solid" : "1 thin");
+    assert_gltf_logged(f, 'I', "--transmission");
+}
+
+static void thickness_generator_and_option_decide_about_glass(void **state)
+{
+    gltf_fixture *f = *state;
+    check_glass(f, "x", PPM_TRANSMISSION_POLICY_AUTO, 0.0, PPM_TRANSMISSION_THIN);
+    check_glass(f, "x", PPM_TRANSMISSION_POLICY_AUTO, 0.1, PPM_TRANSMISSION_SOLID);
+    check_glass(f, blender, PPM_TRANSMISSION_POLICY_AUTO, 0.0, PPM_TRANSMISSION_SOLID);
+    check_glass(f, "x", PPM_TRANSMISSION_POLICY_SOLID, 0.0, PPM_TRANSMISSION_SOLID);
+    check_glass(f, "x", PPM_TRANSMISSION_POLICY_THIN, 0.1, PPM_TRANSMISSION_THIN);
+    check_glass(f, blender, PPM_TRANSMISSION_POLICY_THIN, 0.1, PPM_TRANSMISSION_THIN);
+}
+
+static void glass_without_a_volume_is_thin(void **state)
+{
+    assert_int_equal(import_material(*state, "x", GLASS "}")->transmission_kind,
+                     PPM_TRANSMISSION_THIN);
+}
+
+static void glass_is_not_mentioned_without_any(void **state)
+{
+    gltf_fixture *f = *state;
+    import_material(f, "x", "'extensions':{'KHR_materials_volume':{'thicknessFactor':1}}");
+    assert_false(gltf_logged(f, 'I', "--transmission"));
+}
+
+/* ---- textures -------------------------------------------------------------------------------- */
+
+static void samplers_set_wrap_and_filter(void **state)
+{
+    const ppm_material_desc *m =
+        import_material(*state, "x", "'emissiveFactor':[1,1,1],'emissiveTexture':{'index':0}");
+    assert_int_not_equal(m->emission_texture.image, 0);
+    assert_int_equal(m->emission_texture.wrap_u, PPM_WRAP_CLAMP);
+    assert_int_equal(m->emission_texture.wrap_v, PPM_WRAP_MIRROR);
+    assert_int_equal(m->emission_texture.filter, PPM_FILTER_NEAREST);
+    assert_int_equal(m->emission_texture.has_transform, 0);
+}
+
+/* The extension's example: the lower left quarter, turned. */
+static void texture_transforms_turn_counter_clockwise(void **state)
+{
+    const ppm_material_desc *m = import_material(
+        *state, "x",
+        "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':2,'extensions':{"
+        "'KHR_texture_transform':{'offset':[0,1],'rotation':1.5707963267948966,"
+        "'scale':[0.5,0.25],'texCoord':1}}}}");
+    const ppm_texture *t = &m->base_color_texture;
+    assert_int_not_equal(t->has_transform, 0);
+    assert_int_equal(t->uv_set, 1);
+    assert_values(t->uv_transform, 6, (const float[]){0, 0.25f, 0, -0.5f, 0, 1});
+}
+
+static void a_texture_coordinate_set_that_is_too_high_is_left_out(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x", "'normalTexture':{'index':0,'texCoord':8}");
+    assert_int_equal(m->normal_texture.image, 0);
+    assert_gltf_logged(f, 'W', "TEXCOORD_8");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(the_defaults_are_those_of_the_specification),
+        TEST(primitives_without_a_material_are_white_and_rough),
+        TEST(core_values_are_read),
+        TEST(dielectric_extensions_are_read),
+        TEST(an_ior_of_0_keeps_its_meaning),
+        TEST(values_out_of_range_are_brought_into_it_with_a_warning),
+        TEST(an_unlit_material_shines_with_its_base_colour),
+        TEST(thickness_generator_and_option_decide_about_glass),
+        TEST(glass_without_a_volume_is_thin),
+        TEST(glass_is_not_mentioned_without_any),
+        TEST(samplers_set_wrap_and_filter),
+        TEST(texture_transforms_turn_counter_clockwise),
+        TEST(a_texture_coordinate_set_that_is_too_high_is_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
