@@ -59,7 +59,8 @@ def main():
     add_lamp(-0.75, -0.65, side=0.28, strength=100.0)
     mirror = kit.principled("Mirror", (0.95, 0.95, 0.95), Metallic=1.0, Roughness=0.0)
     kit.add_sphere("Mirror ball", (-0.58, 0.66, 0.42), 0.42, mirror)
-    kit.add_sphere("Glass ball", (-0.14, -0.5, 0.3), 0.3, kit.glass("Glass", 1.5))
+    # held above the floor by its focal length, so that its caustic is sharp and in view
+    kit.add_sphere("Glass ball", (-0.16, -0.5, 0.47), 0.28, kit.glass("Glass", 1.5))
     add_ring((0.6, 0.22, 0.0), radius=0.35, height=0.19, thickness=0.03)
     kit.add_camera((0.0, -2.8, 1.88), (0.0, 0.0, 0.45), 39.5)
     kit.finish(__file__)

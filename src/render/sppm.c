@@ -14,10 +14,11 @@
 #include "photon/walk.h"
 #include "render/integrator.h"
 
-/* First radius, in sides of the pixel's footprint, and how often it may double where a pilot pass
- * finds fewer photons than this. */
+/* First radius, in sides of the pixel's footprint, and how often its disk may double in area where a
+ * pilot pass finds fewer photons than this: smooth light may be averaged over more than a caustic,
+ * which has photons enough within a few pixels. */
 static const float first_scale = 3.0f;
-enum { PILOT_DOUBLINGS = 3, PILOT_PHOTONS = 6 };
+enum { PILOT_DOUBLINGS = 6, PILOT_PHOTONS = 16 };
 
 /* No radius is larger than this share of the scene's bounding sphere. */
 static const float largest_share = 0.05f;
@@ -190,8 +191,8 @@ static void grow_radius(const ppmi_job *job, const sppm_state *state,
         const float radius = *scale * unit_at(job, state, points, slot, *scale);
         const ppmi_gathered gathered =
             ppmi_gather(&state->grid, job->world.albedo, points, slot, radius);
-        if (gathered.count >= (float)PILOT_PHOTONS || 2.0f * radius > state->largest_radius) return;
-        *scale *= 2.0f;
+        if (gathered.count >= (float)PILOT_PHOTONS || 1.5f * radius > state->largest_radius) return;
+        *scale *= sqrtf(2.0f);
     }
 }
 

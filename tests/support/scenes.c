@@ -178,6 +178,16 @@ ppm_image_id image_rgb(ppm_scene *scene, uint32_t width, uint32_t height, const 
 
 /* ---- worlds ---------------------------------------------------------------------------------- */
 
+/* Made once: it takes longer than most tests. */
+static const ppmi_albedo_table *shared_albedo(void)
+{
+    static ppmi_albedo_table table;
+    static bool is_made;
+    if (!is_made) ppmi_albedo_table_init(&table);
+    is_made = true;
+    return &table;
+}
+
 void world_open(test_world *test, const test_scene *scene)
 {
     *test = (test_world){0};
@@ -185,9 +195,7 @@ void world_open(test_world *test, const test_scene *scene)
     assert_int_equal(ppmi_accel_create(scene->context, scene->scene, &test->accel), PPM_STATUS_OK);
     assert_int_equal(ppmi_lights_create(scene->context, scene->scene, &test->lights),
                      PPM_STATUS_OK);
-    test->albedo = ppmi_alloc(scene->context, 1, sizeof *test->albedo);
-    assert_non_null(test->albedo);
-    ppmi_albedo_table_init(test->albedo);
+    test->albedo = shared_albedo();
     test->world = (ppmi_world){.scene = scene->scene,
                                .accel = test->accel,
                                .lights = test->lights,
@@ -197,11 +205,10 @@ void world_open(test_world *test, const test_scene *scene)
     }
 }
 
-void world_close(test_world *test, const test_scene *scene)
+void world_close(test_world *test)
 {
     ppmi_lights_destroy(test->lights);
     ppmi_accel_destroy(test->accel);
-    ppmi_free(scene->context, test->albedo);
 }
 
 ppmi_surface world_hit(const test_world *test, ppmi_vec3 origin, ppmi_vec3 direction)

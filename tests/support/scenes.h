@@ -46,11 +46,11 @@ typedef struct test_world {
     ppmi_world world;
     ppmi_accel *accel;
     ppmi_lights *lights;
-    ppmi_albedo_table *albedo;
+    const ppmi_albedo_table *albedo;
 } test_world;
 
 void world_open(test_world *test, const test_scene *scene);
-void world_close(test_world *test, const test_scene *scene);
+void world_close(test_world *test);
 
 /* The surface that a ray meets; fails the test when there is none. */
 ppmi_surface world_hit(const test_world *test, ppmi_vec3 origin, ppmi_vec3 direction);

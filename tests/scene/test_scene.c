@@ -1,0 +1,235 @@
+/* Materials, the frozen state, facts and bounds. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/near.h"
+#include "support/scenes.h"
+
+static test_scene test;
+
+static int open_scene(void **state)
+{
+    (void)state;
+    scene_open(&test);
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    (void)state;
+    scene_close(&test);
+    return 0;
+}
+
+static ppm_material_desc desc;
+
+static void assert_material_refused(void)
+{
+    ppm_material_id id = 77;
+    assert_int_equal(ppm_scene_add_material(test.scene, &desc, &id), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(id, 77);
+    ppm_material_desc_init(&desc);
+}
+
+static void factors_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    const float bad[] = {-0.1f, 1.1f, NAN, INFINITY};
+    float *const unit_factors[] = {
+        &desc.base_color[0], &desc.base_color[1], &desc.base_color[2], &desc.base_color[3],
+        &desc.metallic,      &desc.roughness,     &desc.specular,      &desc.transmission,
+        &desc.attenuation_color[0]};
+    for (size_t f = 0; f < sizeof unit_factors / sizeof unit_factors[0]; f++) {
+        for (size_t b = 0; b < 4; b++) {
+            *unit_factors[f] = bad[b];
+            assert_material_refused();
+        }
+    }
+    float *const factors[] = {&desc.emission[0], &desc.ior, &desc.specular_color[2],
+                              &desc.attenuation_distance_m, &desc.alpha_cutoff};
+    for (size_t f = 0; f < sizeof factors / sizeof factors[0]; f++) {
+        *factors[f] = -1.0f;
+        assert_material_refused();
+        *factors[f] = NAN;
+        assert_material_refused();
+    }
+    desc.normal_scale = NAN;
+    assert_material_refused();
+    assert_int_equal(test.scene->material_count, 0);
+}
+
+static void choices_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    const float pixel[3] = {1.0f, 1.0f, 1.0f};
+    const ppm_image_id image = image_rgb(test.scene, 1, 1, pixel);
+    desc.alpha_mode = 3;
+    assert_material_refused();
+    desc.alpha_mode = -1;
+    assert_material_refused();
+    desc.transmission_kind = 2;
+    assert_material_refused();
+    desc.base_color_texture = (ppm_texture){.image = image, .wrap_u = 3};
+    assert_material_refused();
+    desc.base_color_texture = (ppm_texture){.image = image, .wrap_v = -1};
+    assert_material_refused();
+    desc.base_color_texture = (ppm_texture){.image = image, .filter = 2};
+    assert_material_refused();
+}
+
+static void textures_must_exist(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    ppm_texture *const slots[] = {
+        &desc.base_color_texture, &desc.metallic_roughness_texture, &desc.normal_texture,
+        &desc.emission_texture,   &desc.specular_texture,           &desc.specular_color_texture,
+        &desc.transmission_texture};
+    const float pixel[3] = {1.0f, 1.0f, 1.0f};
+    const ppm_image_id image = image_rgb(test.scene, 1, 1, pixel);
+    for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {
+        slots[i]->image = image + 1;
+        assert_material_refused();
+        *slots[i] = (ppm_texture){.image = image, .uv_set = PPM_MAX_UV_SETS};
+        assert_material_refused();
+        *slots[i] = (ppm_texture){.image = image, .has_transform = 1, .uv_transform = {NAN}};
+        assert_material_refused();
+    }
+    desc.normal_texture = (ppm_texture){.image = image};
+    material_add(test.scene, &desc);
+}
+
+static void defaults_are_those_of_the_header(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    assert_int_equal(desc.size, sizeof desc);
+    assert_near(desc.base_color[3], 1.0, 0.0);
+    assert_near(desc.metallic, 0.0, 0.0);
+    assert_near(desc.roughness, 0.5, 0.0);
+    assert_near(desc.ior, 1.5, 0.0);
+    assert_near(desc.specular, 1.0, 0.0);
+    assert_near(desc.alpha_cutoff, 0.5, 0.0);
+    assert_near(desc.normal_scale, 1.0, 0.0);
+    assert_int_equal(desc.double_sided, 1);
+    desc.size = 8;
+    assert_material_refused();
+}
+
+static void environments_are_checked(void **state)
+{
+    (void)state;
+    const ppm_environment_desc good = {.size = sizeof good, .radiance = {1.0f, 1.0f, 1.0f}};
+    ppm_environment_desc bad = good;
+    bad.radiance[1] = NAN;
+    assert_int_equal(ppm_scene_set_environment(test.scene, &bad), PPM_STATUS_INVALID_ARGUMENT);
+    bad = good;
+    bad.radiance[2] = -1.0f;
+    assert_int_equal(ppm_scene_set_environment(test.scene, &bad), PPM_STATUS_INVALID_ARGUMENT);
+    bad = good;
+    bad.image = 1;
+    assert_int_equal(ppm_scene_set_environment(test.scene, &bad), PPM_STATUS_INVALID_ARGUMENT);
+    bad = good;
+    bad.rotation_rad = INFINITY;
+    assert_int_equal(ppm_scene_set_environment(test.scene, &bad), PPM_STATUS_INVALID_ARGUMENT);
+    assert_false(ppmi_scene_has_light(test.scene));
+    assert_int_equal(ppm_scene_set_environment(test.scene, &good), PPM_STATUS_OK);
+    assert_true(ppmi_scene_has_light(test.scene));
+}
+
+static void a_frozen_scene_takes_nothing(void **state)
+{
+    (void)state;
+    const ppm_material_id grey = material_lambert(test.scene, 0.5f);
+    const ppm_mesh_id mesh = shape_box(test.scene, grey, vec3_splat(0.0f), vec3_splat(1.0f), 1,
+                                       false);
+    shape_place(test.scene, mesh);
+    test.scene->is_frozen = true;
+    uint32_t id = 77;
+    ppm_material_desc_init(&desc);
+    assert_int_equal(ppm_scene_add_material(test.scene, &desc, &id), PPM_STATUS_WRONG_STATE);
+    const ppm_mesh_desc mesh_desc = {.size = sizeof mesh_desc};
+    assert_int_equal(ppm_scene_add_mesh(test.scene, &mesh_desc, &id), PPM_STATUS_WRONG_STATE);
+    const ppm_instance_desc instance = {.size = sizeof instance, .mesh = mesh};
+    assert_int_equal(ppm_scene_add_instance(test.scene, &instance, &id), PPM_STATUS_WRONG_STATE);
+    const ppm_camera_desc camera = {.size = sizeof camera};
+    assert_int_equal(ppm_scene_add_camera(test.scene, &camera, &id), PPM_STATUS_WRONG_STATE);
+    assert_int_equal(ppm_scene_add_framing_camera(test.scene, 1.0f, &id), PPM_STATUS_WRONG_STATE);
+    const ppm_light_desc light = {.size = sizeof light};
+    assert_int_equal(ppm_scene_add_light(test.scene, &light, &id), PPM_STATUS_WRONG_STATE);
+    const ppm_environment_desc environment = {.size = sizeof environment};
+    assert_int_equal(ppm_scene_set_environment(test.scene, &environment), PPM_STATUS_WRONG_STATE);
+    const ppm_image_desc image = {.size = sizeof image};
+    assert_int_equal(ppm_scene_add_image(test.scene, &image, &id), PPM_STATUS_WRONG_STATE);
+    assert_int_equal(id, 77);
+}
+
+static void facts_count_what_there_is(void **state)
+{
+    (void)state;
+    const ppm_material_id lamp = material_emitter(test.scene, 1.0f, 0.0f, false);
+    const ppm_material_id grey = material_lambert(test.scene, 0.5f);
+    const ppm_mesh_id quad = shape_quad(test.scene, lamp, vec3_splat(0.0f), vec3(1, 0, 0),
+                                        vec3(0, 1, 0));
+    const ppm_mesh_id box = shape_box(test.scene, grey, vec3_splat(-1.0f), vec3_splat(0.0f), 2,
+                                      false);
+    shape_place(test.scene, quad);
+    shape_place_at(test.scene, quad, vec3(0.0f, 5.0f, 0.0f));
+    shape_place(test.scene, box);
+    light_point(test.scene, vec3_splat(0.0f), vec3_splat(1.0f));
+    light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
+    ppm_scene_info info = {.size = sizeof info};
+    assert_int_equal(ppm_scene_get_info(test.scene, &info), PPM_STATUS_OK);
+    assert_int_equal(info.triangles, 2 + 48);
+    assert_int_equal(info.instances, 3);
+    assert_int_equal(info.meshes, 2);
+    assert_int_equal(info.materials, 2);
+    assert_int_equal(info.lights, 2 * 2 + 1 + 1);
+    assert_int_equal(info.has_light, 1);
+    assert_near(info.bounds_min[0], -1.0, 0.0);
+    assert_near(info.bounds_max[1], 6.0, 0.0);
+    info.size = 3;
+    assert_int_equal(ppm_scene_get_info(test.scene, &info), PPM_STATUS_INVALID_ARGUMENT);
+}
+
+static void bounds_of_turned_and_mirrored_instances_are_tight(void **state)
+{
+    (void)state;
+    const ppm_material_id grey = material_lambert(test.scene, 0.5f);
+    const ppm_mesh_id ball = shape_sphere(test.scene, grey, 1.0f, 64, true);
+    const float c = cosf(0.7f), s = sinf(0.7f);
+    /* turned about z, mirrored in x, and moved: a ball keeps its extent */
+    const float turned[16] = {-c, -s, 0.0f, 0.0f, -s,   c,    0.0f, 0.0f,
+                              0,  0,  1.0f, 0.0f, 2.0f, 3.0f, 4.0f, 1.0f};
+    shape_place_by(test.scene, ball, turned);
+    ppmi_vec3 low, high;
+    assert_true(ppmi_scene_bounds(test.scene, &low, &high));
+    const float facets = 2e-3f; /* 1 - cos(pi / 128), and a quarter turn between columns */
+    assert_near(low.x, 1.0, facets);
+    assert_near(high.x, 3.0, facets);
+    assert_near(low.y, 2.0, facets);
+    assert_near(high.z, 5.0, facets);
+}
+
+int main(void)
+{
+#define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
+    const struct CMUnitTest tests[] = {
+        WITH_SCENE(factors_out_of_range_are_refused),
+        WITH_SCENE(choices_out_of_range_are_refused),
+        WITH_SCENE(textures_must_exist),
+        WITH_SCENE(defaults_are_those_of_the_header),
+        WITH_SCENE(environments_are_checked),
+        WITH_SCENE(a_frozen_scene_takes_nothing),
+        WITH_SCENE(facts_count_what_there_is),
+        WITH_SCENE(bounds_of_turned_and_mirrored_instances_are_tight),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
