@@ -1,12 +1,14 @@
 /* Context, reporting and memory. */
 #include "base/context.h"
 
+#include <malloc.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MESSAGE_SIZE = 2048 };
 
@@ -16,8 +18,26 @@ struct ppm_context {
     pthread_mutex_t lock; /* guards the log callback and last_error */
     char last_error[MESSAGE_SIZE];
     atomic_size_t live_blocks;
+    atomic_size_t live_bytes;
+    size_t most_bytes; /* live_bytes stays below */
     atomic_size_t fail_countdown;
 };
+
+/* What the process may reasonably hold: the machine's memory, or the limit of its control group.
+ * Linux promises more than there is and ends the process when the promise is called in; an error
+ * that can be read is better. */
+static size_t memory_of_machine(void)
+{
+    const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGE_SIZE);
+    size_t bytes = pages > 0 && page_size > 0 ? (size_t)pages * (size_t)page_size : SIZE_MAX;
+    FILE *file = fopen("/sys/fs/cgroup/memory.max", "re");
+    if (file) {
+        unsigned long long limit;
+        if (fscanf(file, "%llu", &limit) == 1 && limit > 0 && limit < bytes) bytes = (size_t)limit;
+        fclose(file);
+    }
+    return bytes;
+}
 
 ppm_status ppm_context_create(const ppm_context_desc *desc, ppm_context **out_context)
 {
@@ -30,6 +50,7 @@ ppm_status ppm_context_create(const ppm_context_desc *desc, ppm_context **out_co
         free(context);
         return PPM_STATUS_OUT_OF_MEMORY;
     }
+    context->most_bytes = memory_of_machine();
     if (desc) {
         context->log = desc->log;
         context->log_user = desc->log_user;
@@ -100,6 +121,24 @@ static bool fault_is_due(ppm_context *context)
     return atomic_fetch_sub(&context->fail_countdown, 1) == 1;
 }
 
+/* Books bytes against the limit; false beyond it. */
+static bool book(ppm_context *context, size_t bytes)
+{
+    const size_t before = atomic_fetch_add(&context->live_bytes, bytes);
+    if (bytes <= context->most_bytes && before <= context->most_bytes - bytes) {
+        atomic_fetch_add(&context->live_blocks, 1);
+        return true;
+    }
+    atomic_fetch_sub(&context->live_bytes, bytes);
+    return false;
+}
+
+static void unbook(ppm_context *context, size_t bytes)
+{
+    atomic_fetch_sub(&context->live_bytes, bytes);
+    atomic_fetch_sub(&context->live_blocks, 1);
+}
+
 void *ppmi_alloc(ppm_context *context, size_t count, size_t element_size)
 {
     enum { ALIGNMENT = 64 };
@@ -107,8 +146,15 @@ void *ppmi_alloc(ppm_context *context, size_t count, size_t element_size)
     if (count > (SIZE_MAX - ALIGNMENT) / element_size || fault_is_due(context)) return NULL;
     /* aligned_alloc wants a multiple of the alignment */
     const size_t bytes = (count * element_size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (context && !book(context, bytes)) return NULL;
     void *memory = aligned_alloc(ALIGNMENT, bytes);
-    if (memory && context) atomic_fetch_add(&context->live_blocks, 1);
+    if (!context) return memory;
+    if (!memory) {
+        unbook(context, bytes);
+        return NULL;
+    }
+    /* blocks are booked by their real size: that is what can be asked for when they are freed */
+    atomic_fetch_add(&context->live_bytes, malloc_usable_size(memory) - bytes);
     return memory;
 }
 
@@ -122,7 +168,7 @@ void *ppmi_alloc_zeroed(ppm_context *context, size_t count, size_t element_size)
 void ppmi_free(ppm_context *context, void *memory)
 {
     if (!memory) return;
-    if (context) atomic_fetch_sub(&context->live_blocks, 1);
+    if (context) unbook(context, malloc_usable_size(memory));
     free(memory);
 }
 

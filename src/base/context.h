@@ -26,9 +26,10 @@ void ppmi_log(ppm_context *context, ppm_log_level level, const char *format, ...
 ppm_status ppmi_fail(ppm_context *context, ppm_status status, const char *format, ...)
     PPMI_PRINTF(3, 4);
 
-/* count * element_size bytes, aligned to 64, not initialised. NULL when memory is out, when the
- * product overflows, or for a count of 0. Nothing is reported: the caller knows what it was for.
- * Free with ppmi_free; NULL is fine there. */
+/* count * element_size bytes, aligned to 64, not initialised. NULL when memory is out (or all
+ * blocks of the context together would be more than the machine has), when the product overflows,
+ * or for a count of 0. Nothing is reported: the caller knows what it was for. Free with ppmi_free;
+ * NULL is fine there. */
 void *ppmi_alloc(ppm_context *context, size_t count, size_t element_size);
 void *ppmi_alloc_zeroed(ppm_context *context, size_t count, size_t element_size);
 void ppmi_free(ppm_context *context, void *memory);

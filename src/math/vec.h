@@ -120,7 +120,7 @@ static inline float vec3_mean(ppmi_vec3 a)
     return (a.x + a.y + a.z) * (1.0f / 3.0f);
 }
 
-/* Largest absolute value of the components. */
+/* Largest absolute value of the components, none of which is NaN. */
 static inline float vec3_max_abs(ppmi_vec3 a)
 {
     return ppmi_max(fabsf(a.x), ppmi_max(fabsf(a.y), fabsf(a.z)));

