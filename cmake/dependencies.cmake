@@ -36,3 +36,6 @@ if(TARGET TinyGLTF::TinyGLTF)
 else()
     set(PPM_TINYGLTF_TARGET tinygltf::tinygltf) # upstream
 endif()
+
+find_package(tinyobjloader REQUIRED CONFIG)
+set(PPM_TINYOBJ_TARGET tinyobjloader::tinyobjloader) # single precision; a shared library on Debian

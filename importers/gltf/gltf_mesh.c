@@ -50,7 +50,7 @@ static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                   const char *place, ppmi_gltf_geometry *g)
 {
-    char name[16];
+    char name[24];
     const size_t count = g->vertex_count;
     ppm_status status =
         read_attribute(reader, primitive, "NORMAL", &vec3_format, place, count, &g->normals);

@@ -42,8 +42,8 @@ static bool grow(ppmi_obj_lines *l)
     }
     char *buffer = ppmi_alloc(l->context, 2 * l->capacity + 1, 1);
     if (!buffer) {
-        l->status = ppmi_fail(l->context, PPM_STATUS_OUT_OF_MEMORY,
-                              "%s: line %zu: out of memory", l->path, l->next_number);
+        l->status = ppmi_fail(l->context, PPM_STATUS_OUT_OF_MEMORY, "%s: line %zu: out of memory",
+                              l->path, l->next_number);
         return false;
     }
     memcpy(buffer, l->buffer, l->end);
@@ -126,8 +126,8 @@ static bool next_line(ppmi_obj_lines *l, char **out_text, size_t *out_length)
         if (!find_line_end(l, from, &length, &step)) return false;
         char *text = l->buffer + l->start;
         ++l->next_number;
-        const bool is_continued = length > from && text[length - 1] == '\\' && step > length &&
-                                  !is_comment(text, length);
+        const bool is_continued =
+            length > from && text[length - 1] == '\\' && step > length && !is_comment(text, length);
         if (!is_continued) {
             *out_text = text;
             *out_length = length;

@@ -36,56 +36,102 @@ static bool is_absolute(const char *name)
     return name[0] == '/' || (is_letter && name[1] == ':');
 }
 
-/* Writes over part, of a folder, what is there under that name in other letter case; the first one
- * in the order of characters if there are several. */
-static bool match_case(const char *folder, char *part, size_t length)
+/* Puts the name in folder that is `part` but for letter case at folder + at, the first one in the
+ * order of characters if there are several. */
+static bool match_case(char *folder, size_t at, const char *part, size_t length)
 {
-    char best[256];
     bool is_found = false;
-    DIR *directory = length < sizeof best ? opendir(folder[0] ? folder : ".") : NULL;
+    folder[at] = 0;
+    DIR *directory = opendir(at > 0 ? folder : ".");
     if (!directory) return false;
     for (const struct dirent *entry; (entry = readdir(directory));) {
         const char *name = entry->d_name;
         if (strlen(name) != length || strncasecmp(name, part, length) != 0) continue;
-        if (is_found && strcmp(name, best) >= 0) continue;
-        memcpy(best, name, length + 1);
+        if (is_found && strcmp(name, folder + at) >= 0) continue;
+        memcpy(folder + at, name, length + 1);
         is_found = true;
     }
     closedir(directory);
-    if (is_found) memcpy(part, best, length);
     return is_found;
 }
 
-/* Brings the letter case of path, behind its first `fixed` bytes, to what is on the disk. False if
- * there is no such file. */
-static bool resolve(char *path, size_t fixed)
+/* Appends a relative name to out, which holds at bytes and has room, part by part in the letter
+ * case that is on the disk. False if there is no such file. */
+static bool resolve(char *out, size_t at, const char *name)
 {
     struct stat info;
-    for (char *part = path + fixed; *part;) {
-        char *end = part + strcspn(part, "/");
-        const char mark = *end;
-        *end = 0;
-        bool is_there = *part == 0 || stat(path, &info) == 0;
-        if (!is_there) {
-            char saved = *part;
-            char *copy = part;
-            /* the folder is the path up to here */
-            *copy = 0;
-            char name[256];
-            const size_t length = (size_t)(end - part);
-            is_there = false;
-            if (length < sizeof name) {
-                name[0] = saved;
-                memcpy(name + 1, part + 1, length - 1);
-                is_there = match_case(path, name, length);
-                memcpy(part, name, length);
-            } else {
-                *copy = saved;
-            }
-        }
-        *end = mark;
-        if (!is_there) return false;
-        part = end + (mark == '/');
+    while (*name) {
+        const size_t length = strcspn(name, "/");
+        memcpy(out + at, name, length);
+        out[at + length] = 0;
+        if (length > 0 && stat(out, &info) != 0 && !match_case(out, at, name, length)) return false;
+        at += length;
+        name += length;
+        if (*name == '/') out[at++] = *name++;
     }
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+    out[at] = 0;
+    return stat(out, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* One search, in its own memory. */
+typedef struct search {
+    const char *obj;    /* path of the OBJ */
+    const char *folder; /* of the library, relative to it */
+    char *name;         /* with slashes */
+    char *wanted;       /* what is tried: folder and name, relative to the OBJ's folder */
+    char *path;         /* what was found */
+} search;
+
+/* Tries first_part + rest, which must stay inside the OBJ's folder. */
+static bool try_path(search *s, const char *first_part, const char *rest)
+{
+    const size_t first = strlen(first_part), root = ppmi_obj_folder_length(s->obj);
+    memcpy(s->wanted, first_part, first);
+    strcpy(s->wanted + first, rest);
+    if (!stays_inside(s->wanted)) return false;
+    memcpy(s->path, s->obj, root);
+    return resolve(s->path, root, s->wanted);
+}
+
+static bool find(search *s)
+{
+    const char *base = s->name + ppmi_obj_folder_length(s->name);
+    if (!is_absolute(s->name)) {
+        if (try_path(s, s->folder, s->name) || try_path(s, "", s->name)) return true;
+    }
+    return try_path(s, s->folder, base) || try_path(s, "", base);
+}
+
+/* Whether path is what folder and name say, letter by letter. */
+static bool is_as_written(const search *s)
+{
+    const char *relative = s->path + ppmi_obj_folder_length(s->obj);
+    const size_t length = strlen(s->folder);
+    return strncmp(relative, s->folder, length) == 0 && strcmp(relative + length, s->name) == 0;
+}
+
+ppm_status ppmi_obj_find_file(ppmi_obj_reader *r, const char *folder, const char *name,
+                              char **out_path, bool *out_is_elsewhere)
+{
+    const size_t name_size = strlen(name) + 1, wanted_size = name_size + strlen(folder);
+    search s = {.obj = r->path, .folder = folder};
+    *out_path = NULL;
+    s.name = ppmi_alloc(r->context, name_size, 1);
+    s.wanted = ppmi_alloc(r->context, wanted_size, 1);
+    s.path = ppmi_alloc(r->context, wanted_size + ppmi_obj_folder_length(r->path), 1);
+    const bool ok = s.name && s.wanted && s.path;
+    if (ok) {
+        for (size_t i = 0; i < name_size; ++i) {
+            s.name[i] = (char)(name[i] == '\\' ? '/' : name[i]);
+        }
+        if (find(&s)) {
+            *out_is_elsewhere = !is_as_written(&s);
+            *out_path = s.path;
+            s.path = NULL;
+        }
+    }
+    ppmi_free(r->context, s.name);
+    ppmi_free(r->context, s.wanted);
+    ppmi_free(r->context, s.path);
+    return ok ? PPM_STATUS_OK : ppmi_obj_out_of_memory(r);
 }

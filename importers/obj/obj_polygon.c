@@ -1,6 +1,6 @@
-/* Polygons to triangles: a fan where that is right, else ear clipping (Meisters 1975, "Polygons have
- * ears"; Eberly, "Triangulation by Ear Clipping", for the rules about reflex corners only and about
- * corners that coincide, which polygons with a bridge to a hole have). */
+/* Polygons to triangles: a fan where that is right, else ear clipping (Meisters 1975, "Polygons
+ * have ears"; Eberly, "Triangulation by Ear Clipping", for the rules about reflex corners only and
+ * about corners that coincide, which polygons with a bridge to a hole have). */
 #include "obj/obj_polygon.h"
 
 #include <math.h>

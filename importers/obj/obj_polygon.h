@@ -10,8 +10,8 @@ typedef struct ppmi_obj_polygon_workspace {
     double *xy;            /* 2 per corner, in the polygon's plane */
     uint32_t *next, *prev; /* the ring of what is left */
     size_t capacity;
-    uint64_t tests;    /* points tested against triangles so far */
-    uint64_t forced;   /* polygons for which no proper triangulation was found */
+    uint64_t tests;  /* points tested against triangles so far */
+    uint64_t forced; /* polygons for which no proper triangulation was found */
 } ppmi_obj_polygon_workspace;
 
 void ppmi_obj_polygon_deinit(ppm_context *context, ppmi_obj_polygon_workspace *workspace);

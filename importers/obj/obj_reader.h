@@ -49,7 +49,7 @@ typedef struct ppmi_obj_reach {
 
 /* What is counted and told once, at the end. */
 typedef struct ppmi_obj_tally {
-    size_t lines, points, free_forms, small_faces, unknown;
+    size_t lines, points, free_forms, small_faces, unknown, glass;
     size_t unknown_line;
     char unknown_word[32]; /* the first one */
 } ppmi_obj_tally;
@@ -57,7 +57,8 @@ typedef struct ppmi_obj_tally {
 typedef struct ppmi_obj_reader {
     ppm_context *context;
     ppm_scene *scene;
-    const char *path; /* of the file; also its name in messages */
+    const char *path;  /* of the file; also its name in messages */
+    char *stem;        /* its name without folder and ending */
     ppm_status status; /* the first failure while statements are read */
 
     ppmi_obj_lines lines;
@@ -66,6 +67,7 @@ typedef struct ppmi_obj_reader {
 
     ppmi_obj_array positions; /* 3 floats each */
     ppmi_obj_array colors;    /* empty, or 3 floats per position, as written */
+    float color_scale;        /* brings them to 0 .. 1 */
     ppmi_obj_array uvs;       /* 2 floats each, v up */
     ppmi_obj_array normals;   /* 3 floats each: the file's, then computed ones */
     ppmi_obj_array corners;   /* ppmi_obj_corner: indices from 0, -1 for none */
@@ -83,6 +85,7 @@ typedef struct ppmi_obj_reader {
     ppmi_obj_names libraries;         /* paths of the files that were read */
     ppmi_obj_names library_materials; /* names */
     ppmi_obj_array materials;         /* ppmi_obj_material */
+    ppmi_obj_names missing_materials; /* that usemtl names and no library has */
     ppmi_obj_names ignored;           /* statements of materials that have no effect here */
     ppmi_obj_names images;            /* role, folder and name as written */
     ppmi_obj_array image_ids;         /* ppm_image_id; 0: cannot be had */
@@ -113,7 +116,8 @@ ppm_status ppmi_obj_read_libraries(ppmi_obj_reader *reader);
 /* obj_material.c: the scene's material for one of used_materials; 0 if no library has it. */
 ppm_status ppmi_obj_use_material(ppmi_obj_reader *reader, uint32_t used, ppm_material_id *out_id);
 
-/* obj_texture.c: the texture of a map; all zero when it cannot be had. statement is for messages. */
+/* obj_texture.c: the texture of a map; all zero when it cannot be had. statement is for messages.
+ */
 ppm_status ppmi_obj_use_map(ppmi_obj_reader *reader, const ppmi_obj_material *material,
                             const ppmi_obj_map *map, const char *statement, int32_t role,
                             ppm_texture *out_texture);

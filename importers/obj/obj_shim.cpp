@@ -150,7 +150,8 @@ const ppmi_obj_mtl *load_material(ppmi_obj_next_fn next, void *user)
 }
 
 // Runs body; whatever it throws becomes a status.
-template <typename Body> ppm_status guarded(ppm_context *context, const char *file, Body body) noexcept
+template <typename Body>
+ppm_status guarded(ppm_context *context, const char *file, Body body) noexcept
 {
     try {
         body();
@@ -165,7 +166,8 @@ template <typename Body> ppm_status guarded(ppm_context *context, const char *fi
 }
 } // namespace
 
-ppm_status ppmi_obj_parse(ppm_context *context, const char *file, const ppmi_obj_events *events) noexcept
+ppm_status ppmi_obj_parse(ppm_context *context, const char *file,
+                          const ppmi_obj_events *events) noexcept
 {
     return guarded(context, file, [&] { parse(events); });
 }

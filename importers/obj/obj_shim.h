@@ -34,7 +34,8 @@ typedef struct ppmi_obj_events {
 } ppmi_obj_events;
 
 /* Reads until next returns NULL. file is for messages. Returns OK, INPUT_INVALID, OUT_OF_MEMORY. */
-ppm_status ppmi_obj_parse(ppm_context *context, const char *file, const ppmi_obj_events *events) PPMI_NOEXCEPT;
+ppm_status ppmi_obj_parse(ppm_context *context, const char *file,
+                          const ppmi_obj_events *events) PPMI_NOEXCEPT;
 
 /* A map_ statement: a file name and its options. */
 typedef struct ppmi_obj_map {
@@ -61,7 +62,8 @@ void ppmi_obj_mtl_destroy(const ppmi_obj_mtl *mtl) PPMI_NOEXCEPT;
 
 /* Reads up to count numbers that are parted by blanks, in any locale; returns how many there
  * were. */
-size_t ppmi_obj_parse_floats(const char *text, size_t length, float *out, size_t count) PPMI_NOEXCEPT;
+size_t ppmi_obj_parse_floats(const char *text, size_t length, float *out,
+                             size_t count) PPMI_NOEXCEPT;
 
 #ifdef __cplusplus
 }

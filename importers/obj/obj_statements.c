@@ -285,10 +285,10 @@ static void note_libraries(ppmi_obj_reader *r, const char *text, size_t length)
 static bool is_harmless(const char *word)
 {
     static const char *const words[] = {
-        "vp",   "cstype", "deg",      "bmat",       "step",      "parm",      "trim",   "hole",
-        "scrv", "sp",     "end",      "con",        "mg",        "bevel",     "lod",    "c_interp",
-        "d_interp",       "maplib",   "usemap",     "shadow_obj", "trace_obj", "ctech", "stech",
-        "call", "csh",    "bsp",      "bzp",        "cdc",       "cdp",       "res",    "t"};
+        "vp",       "cstype", "deg",    "bmat",       "step",      "parm",  "trim",  "hole",
+        "scrv",     "sp",     "end",    "con",        "mg",        "bevel", "lod",   "c_interp",
+        "d_interp", "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "call",
+        "csh",      "bsp",    "bzp",    "cdc",        "cdp",       "res",   "t"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
         if (strcmp(word, words[i]) == 0) return true;
     }

@@ -177,7 +177,12 @@ void ppmi_obj_triples_deinit(ppm_context *context, ppmi_obj_triples *triples)
 static size_t utf8_length(const unsigned char *text, size_t left)
 {
     const unsigned char c = text[0];
-    const size_t count = c < 0x80 ? 1 : c < 0xc2 ? 0 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf5 ? 4 : 0;
+    const size_t count = c < 0x80   ? 1
+                         : c < 0xc2 ? 0
+                         : c < 0xe0 ? 2
+                         : c < 0xf0 ? 3
+                         : c < 0xf5 ? 4
+                                    : 0;
     if (count == 0 || count > left) return 0;
     for (size_t i = 1; i < count; ++i) {
         if ((text[i] & 0xc0) != 0x80) return 0;

@@ -194,7 +194,7 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     render->context = scene->context;
     render->scene = scene;
     render->options = resolved;
-    scene->is_frozen = true;
+    ppmi_scene_freeze(scene);
     status = start(render);
     if (status != PPM_STATUS_OK) {
         ppm_render_destroy(render);

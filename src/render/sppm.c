@@ -14,9 +14,9 @@
 #include "photon/walk.h"
 #include "render/integrator.h"
 
-/* First radius, in sides of the pixel's footprint, and how often its disk may double in area where a
- * pilot pass finds fewer photons than this: smooth light may be averaged over more than a caustic,
- * which has photons enough within a few pixels. */
+/* First radius, in sides of the pixel's footprint, and how often its disk may double in area where
+ * a pilot pass finds fewer photons than this: smooth light may be averaged over more than a
+ * caustic, which has photons enough within a few pixels. */
 static const float first_scale = 3.0f;
 enum { PILOT_DOUBLINGS = 6, PILOT_PHOTONS = 16 };
 

@@ -311,6 +311,34 @@ bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *ou
     return out_min->x <= out_max->x;
 }
 
+static void move_all(ppm_scene *scene, ppmi_vec3 shift)
+{
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        ppmi_transform *to_world = &scene->instances[i].to_world;
+        to_world->origin = vec3_sub(to_world->origin, shift);
+    }
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
+        scene->cameras[i].origin = vec3_sub(scene->cameras[i].origin, shift);
+    }
+    for (uint32_t i = 0; i < scene->punctual_count; i++) {
+        scene->punctuals[i].position = vec3_sub(scene->punctuals[i].position, shift);
+    }
+    scene->shift = shift;
+}
+
+void ppmi_scene_freeze(ppm_scene *scene)
+{
+    const float far_in_sizes = 8.0f;
+    ppmi_vec3 low, high;
+    if (scene->is_frozen) return;
+    scene->is_frozen = true;
+    if (!ppmi_scene_bounds(scene, &low, &high)) return;
+    const ppmi_vec3 center = vec3_scale(vec3_add(low, high), 0.5f);
+    if (vec3_length(center) > far_in_sizes * vec3_length(vec3_sub(high, low))) {
+        move_all(scene, center);
+    }
+}
+
 static bool is_decoration(const ppmi_material *material)
 {
     return material->desc.emission_texture.image > 0 &&
@@ -364,8 +392,8 @@ ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
     }
     ppmi_vec3 low, high;
     ppmi_scene_bounds(scene, &low, &high);
-    vec3_store(info.bounds_min, low);
-    vec3_store(info.bounds_max, high);
+    vec3_store(info.bounds_min, vec3_add(low, scene->shift));
+    vec3_store(info.bounds_max, vec3_add(high, scene->shift));
     *out_info = info;
     return PPM_STATUS_OK;
 }

@@ -97,10 +97,16 @@ struct ppm_scene {
     ppmi_punctual *punctuals;
     ppmi_environment environment;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
+    ppmi_vec3 shift; /* what has been subtracted from all positions; see ppmi_scene_freeze */
     bool is_frozen;
 };
 
-/* World bounds of all instances; false when there is nothing. */
+/* Ends building. A scene that lies far from the origin for its size (a georeferenced site) is moved
+ * there first: floats are finest at zero. What the public API tells of positions stays as it was.
+ */
+void ppmi_scene_freeze(ppm_scene *scene);
+
+/* World bounds of all instances, in the positions as they are kept; false when there is nothing. */
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
 /* Whether anything shines that is meant to light the scene: an environment, a punctual light, or an

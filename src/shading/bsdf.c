@@ -152,7 +152,7 @@ static ppmi_vec3 spec_fresnel(const ppmi_bsdf *bsdf, float cos_h)
 static ppmi_vec3 spec_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
     const ppmi_vec3 h = vec3_normalize(vec3_add(bsdf->wo, wi));
-    const float d = ppmi_ggx_d(bsdf->alpha, h.z);
+    const float d = ppmi_ggx_d(bsdf->alpha, h);
     const float g = ppmi_ggx_g2(bsdf->alpha, bsdf->wo.z, wi.z);
     return vec3_scale(spec_fresnel(bsdf, vec3_dot(wi, h)), d * g / (4.0f * bsdf->wo.z * wi.z));
 }
@@ -211,7 +211,7 @@ static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport 
     const float cos_oh = vec3_dot(bsdf->wo, h);
     float cos_t;
     const float reflectance = glass_reflectance(bsdf, cos_oh, &cos_t);
-    const float d = ppmi_ggx_d(bsdf->glass_alpha, h.z);
+    const float d = ppmi_ggx_d(bsdf->glass_alpha, h);
     const float g = ppmi_ggx_g2(bsdf->glass_alpha, bsdf->wo.z, fabsf(wi.z));
     const float common = bsdf->glass_weight * d * g * cos_oh * glass_jacobian(bsdf, folded, h) /
                          (bsdf->wo.z * fabsf(wi.z));

@@ -12,12 +12,13 @@
 /* Below this GGX alpha a lobe is a mirror: its width is under a tenth of a degree. */
 #define PPMI_SMOOTH_ALPHA 1e-3f
 
-/* Distribution of normals, equation 33 of Walter et al. */
-static inline float ppmi_ggx_d(float alpha, float cos_h)
+/* Distribution of normals, equation 33 of Walter et al., for a unit h. With x^2 + y^2 for
+ * 1 - cos^2 nothing cancels near the peak of a narrow lobe. */
+static inline float ppmi_ggx_d(float alpha, ppmi_vec3 h)
 {
     const float alpha2 = alpha * alpha;
-    const float c = cos_h * cos_h * (alpha2 - 1.0f) + 1.0f;
-    return cos_h > 0.0f ? alpha2 / (PPMI_PI * c * c) : 0.0f;
+    const float c = alpha2 * h.z * h.z + h.x * h.x + h.y * h.y;
+    return h.z > 0.0f ? alpha2 / (PPMI_PI * c * c) : 0.0f;
 }
 
 /* Smith's Lambda. */
@@ -44,7 +45,7 @@ static inline float ppmi_ggx_visible_d(float alpha, ppmi_vec3 wo, ppmi_vec3 h)
 {
     const float cos_oh = vec3_dot(wo, h);
     if (cos_oh <= 0.0f || wo.z <= 0.0f) return 0.0f;
-    return ppmi_ggx_g1(alpha, wo.z) * cos_oh * ppmi_ggx_d(alpha, h.z) / wo.z;
+    return ppmi_ggx_g1(alpha, wo.z) * cos_oh * ppmi_ggx_d(alpha, h) / wo.z;
 }
 
 /* Draws a visible normal. wo.z > 0. */

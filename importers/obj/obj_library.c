@@ -1,0 +1,312 @@
+/* Material libraries (MTL): found beside the OBJ and cut into materials, each of which
+ * tinyobjloader reads. Two things it would lose are seen to here: which statements there were, as
+ * the default of a value is not the value, and options with fewer numbers than it expects. */
+#include <string.h>
+#include <strings.h>
+
+#include "obj/obj_reader.h"
+
+/* ---- statements of a material ---------------------------------------------------------------- */
+
+/* One library on its way in. */
+typedef struct library {
+    ppmi_obj_reader *reader;
+    ppmi_obj_lines lines;
+    char *name; /* of the next material, as UTF-8; NULL: there is none */
+    size_t name_line;
+    uint32_t given;    /* by the statements of the current material */
+    size_t stray;      /* statements before the first newmtl */
+    char *rewritten;   /* a statement in other words, or NULL */
+    ppm_status status; /* the first failure */
+} library;
+
+static void set_status(library *l, ppm_status status)
+{
+    if (l->status == PPM_STATUS_OK) l->status = status;
+}
+
+static uint32_t given_by(const char *word)
+{
+    static const struct {
+        const char *word;
+        uint32_t bit;
+    } table[] = {{"Kd", PPMI_OBJ_HAS_KD}, {"Ks", PPMI_OBJ_HAS_KS},      {"Ke", PPMI_OBJ_HAS_KE},
+                 {"Tf", PPMI_OBJ_HAS_TF}, {"Kt", PPMI_OBJ_HAS_TF},      {"Ns", PPMI_OBJ_HAS_NS},
+                 {"d", PPMI_OBJ_HAS_D},   {"Tr", PPMI_OBJ_HAS_D},       {"Pr", PPMI_OBJ_HAS_PR},
+                 {"Pm", PPMI_OBJ_HAS_PM}, {"illum", PPMI_OBJ_HAS_ILLUM}};
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i) {
+        if (strcmp(word, table[i].word) == 0) return table[i].bit;
+    }
+    return 0;
+}
+
+/* Statements that change nothing in the picture; Ka is light that the renderer computes. */
+static bool has_effect(const char *word)
+{
+    static const char *const words[] = {"Ni",    "map_Kd", "map_Ks",   "map_Ke",
+                                        "map_d", "map_Pr", "map_Pm",   "norm",
+                                        "Ka",    "map_Ka", "sharpness"};
+    if (given_by(word) != 0) return true;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
+        if (strcmp(word, words[i]) == 0) return true;
+    }
+    return false;
+}
+
+static void note_ignored(library *l, const char *word, size_t length)
+{
+    ppmi_obj_reader *r = l->reader;
+    uint32_t index;
+    char *text = ppmi_obj_utf8(r->context, word, length);
+    if (!text || !ppmi_obj_names_add(r->context, &r->ignored, text, strlen(text), &index)) {
+        set_status(l, ppmi_obj_out_of_memory(r));
+    }
+    ppmi_free(r->context, text);
+}
+
+static bool is_number(const char *word, size_t length)
+{
+    for (size_t i = 0; i < length; ++i) {
+        if (!memchr("0123456789+-.eE", word[i], 15)) return false;
+    }
+    return length > 0;
+}
+
+/* The statement with -o, -s and -t brought to three numbers, as the parser takes the word behind a
+ * shorter list for the next number; those that are added have no effect. NULL when memory is out.
+ */
+static char *complete_options(ppm_context *context, const char *text, size_t length,
+                              size_t *out_length)
+{
+    char *out =
+        ppmi_alloc(context, 4 * length + 64, 1); /* an option of 3 bytes becomes at most 9 */
+    size_t count = 0;
+    int missing = 0; /* numbers of the current option */
+    char filler = '0';
+    for (size_t at = 0; out && at < length;) {
+        size_t word = 0;
+        while (at + word < length && !ppmi_obj_is_blank(text[at + word])) {
+            ++word;
+        }
+        const bool is_option = word == 2 && text[at] == '-' && strchr("ost", text[at + 1]);
+        const bool is_value = missing > 0 && is_number(text + at, word);
+        for (; missing > 0 && !is_value; --missing) {
+            out[count++] = filler;
+            out[count++] = ' ';
+        }
+        missing = is_option ? 3 : is_value ? missing - 1 : 0;
+        if (is_option) filler = text[at + 1] == 's' ? '1' : '0';
+        while (word < length - at && ppmi_obj_is_blank(text[at + word])) {
+            ++word;
+        }
+        memcpy(out + count, text + at, word);
+        count += word;
+        at += word;
+    }
+    if (out) out[count] = '\n';
+    *out_length = count;
+    return out;
+}
+
+static bool is_map(const char *word)
+{
+    return strncmp(word, "map_", 4) == 0 || strcmp(word, "norm") == 0;
+}
+
+/* Takes in a newmtl statement. */
+static void begin_material(library *l, const char *text, size_t length)
+{
+    l->name = ppmi_obj_utf8(l->reader->context, text, length);
+    l->name_line = l->lines.number;
+    if (!l->name) set_status(l, ppmi_obj_out_of_memory(l->reader));
+}
+
+/* ppmi_obj_next_fn: the statements up to the next newmtl or the end. */
+static char *next_of_material(void *user, size_t *out_length)
+{
+    library *l = user;
+    ppm_context *context = l->reader->context;
+    size_t length;
+    char *text = l->status == PPM_STATUS_OK ? ppmi_obj_lines_next(&l->lines, &length) : NULL;
+    if (!text) return NULL;
+    char *rest = text, word[16] = {0};
+    size_t rest_length = length;
+    const size_t word_length = ppmi_obj_take_word(&rest, &rest_length);
+    memcpy(word, text, word_length < sizeof word ? word_length : sizeof word - 1);
+    if (strcmp(word, "newmtl") == 0) {
+        begin_material(l, rest, rest_length);
+        return NULL;
+    }
+    l->given |= given_by(word);
+    l->stray++;
+    if (!has_effect(word)) note_ignored(l, text, word_length);
+    *out_length = length;
+    if (!is_map(word) || !memchr(text, '-', length)) return text;
+    ppmi_free(context, l->rewritten);
+    l->rewritten = complete_options(context, text, length, out_length);
+    if (!l->rewritten) set_status(l, ppmi_obj_out_of_memory(l->reader));
+    return l->rewritten;
+}
+
+/* ---- a library ------------------------------------------------------------------------------- */
+
+/* Keeps a material; of several with one name the first counts. */
+static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
+                                const ppmi_obj_material *material)
+{
+    uint32_t index;
+    const uint32_t known = ppmi_obj_names_count(&r->library_materials);
+    ppmi_obj_material *added = NULL;
+    if (!ppmi_obj_names_add(r->context, &r->library_materials, name, strlen(name), &index)) {
+        return ppmi_obj_out_of_memory(r);
+    }
+    if (index < known) {
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: line %zu: material '%s' left out: there was one of that name before",
+                 ppmi_obj_names_get(&r->libraries, material->library), material->line, name);
+        ppmi_obj_mtl_destroy(material->mtl);
+        return PPM_STATUS_OK;
+    }
+    added = ppmi_obj_push(r->context, &r->materials, 1, sizeof *added);
+    if (!added) {
+        ppmi_obj_mtl_destroy(material->mtl);
+        return ppmi_obj_out_of_memory(r);
+    }
+    *added = *material;
+    return PPM_STATUS_OK;
+}
+
+/* Reads the statements behind a newmtl; name becomes the next material's. */
+static ppm_status read_material(library *l, uint32_t index)
+{
+    ppmi_obj_reader *r = l->reader;
+    char *name = l->name;
+    ppmi_obj_material material = {.library = index, .line = l->name_line};
+    l->name = NULL;
+    l->given = 0;
+    ppm_status status =
+        ppmi_obj_mtl_create(r->context, l->lines.path, next_of_material, l, &material.mtl);
+    material.given = l->given;
+    if (status == PPM_STATUS_OK) status = keep_material(r, name, &material);
+    ppmi_free(r->context, name);
+    set_status(l, status);
+    set_status(l, l->lines.status);
+    return l->status;
+}
+
+/* Skips what is before the first newmtl. */
+static void skip_stray(library *l)
+{
+    size_t length;
+    while (!l->name && next_of_material(l, &length)) {
+    }
+    if (l->stray > 0) {
+        ppmi_log(l->reader->context, PPM_LOG_WARNING,
+                 "%s: %zu statements before the first newmtl left out", l->lines.path, l->stray);
+    }
+    set_status(l, l->lines.status);
+}
+
+static ppm_status read_library(ppmi_obj_reader *r, const char *path)
+{
+    uint32_t index;
+    const uint32_t known = ppmi_obj_names_count(&r->libraries);
+    if (!ppmi_obj_names_add(r->context, &r->libraries, path, strlen(path), &index)) {
+        return ppmi_obj_out_of_memory(r);
+    }
+    if (index < known) return PPM_STATUS_OK; /* it was read before */
+    library l = {.reader = r};
+    l.status = ppmi_obj_lines_open(r->context, path, &l.lines);
+    if (l.status == PPM_STATUS_OK) skip_stray(&l);
+    while (l.status == PPM_STATUS_OK && l.name) {
+        read_material(&l, index);
+    }
+    ppmi_free(r->context, l.name);
+    ppmi_free(r->context, l.rewritten);
+    ppmi_obj_lines_close(&l.lines);
+    return l.status;
+}
+
+/* ---- mtllib ---------------------------------------------------------------------------------- */
+
+/* Reads the file of a name if there is one. */
+static ppm_status try_library(ppmi_obj_reader *r, const char *name, bool *out_is_found)
+{
+    char *path;
+    bool is_elsewhere;
+    ppm_status status = ppmi_obj_find_file(r, "", name, &path, &is_elsewhere);
+    *out_is_found = path != NULL;
+    if (!path) return status;
+    if (is_elsewhere) {
+        ppmi_log(r->context, PPM_LOG_WARNING, "%s: mtllib '%s': read from %s", r->path, name, path);
+    }
+    status = read_library(r, path);
+    ppmi_free(r->context, path);
+    return status;
+}
+
+/* Length of the first name of a list: up to a blank behind ".mtl", since names may hold blanks. */
+static size_t name_length(const char *names)
+{
+    const size_t all = strlen(names);
+    for (size_t i = 4; i < all; ++i) {
+        if (ppmi_obj_is_blank(names[i]) && strncasecmp(names + i - 4, ".mtl", 4) == 0) return i;
+    }
+    return all;
+}
+
+static void warn_of_missing(const ppmi_obj_reader *r, const char *name)
+{
+    ppmi_log(r->context, PPM_LOG_WARNING,
+             "%s: mtllib '%s' left out: there is no such file in the folder of the OBJ", r->path,
+             name);
+}
+
+/* A name; if there is no such file, each of its words. */
+static ppm_status read_named(ppmi_obj_reader *r, char *name)
+{
+    bool is_found, is_any = false;
+    ppm_status status = try_library(r, name, &is_found);
+    if (is_found || status != PPM_STATUS_OK) return status;
+    char *word = strchr(name, ' ') ? name : NULL;
+    while (word && status == PPM_STATUS_OK) {
+        char *end = strchr(word, ' ');
+        if (end) *end = 0;
+        status = *word ? try_library(r, word, &is_found) : PPM_STATUS_OK;
+        is_any = is_any || is_found;
+        if (end) *end = ' ';
+        word = end ? end + 1 : NULL;
+    }
+    if (!is_any && status == PPM_STATUS_OK) warn_of_missing(r, name);
+    return status;
+}
+
+static ppm_status read_list(ppmi_obj_reader *r, char *names)
+{
+    ppm_status status = PPM_STATUS_OK;
+    if (!*names) warn_of_missing(r, "");
+    while (*names && status == PPM_STATUS_OK) {
+        char *end = names + name_length(names);
+        const bool is_last = *end == 0;
+        *end = 0;
+        status = read_named(r, names);
+        names = end + !is_last;
+        while (ppmi_obj_is_blank(*names)) {
+            ++names;
+        }
+    }
+    return status;
+}
+
+ppm_status ppmi_obj_read_libraries(ppmi_obj_reader *r)
+{
+    ppm_status status = PPM_STATUS_OK;
+    const uint32_t count = ppmi_obj_names_count(&r->library_names);
+    for (uint32_t i = 0; i < count && status == PPM_STATUS_OK; ++i) {
+        char *names = ppmi_string_copy(r->context, ppmi_obj_names_get(&r->library_names, i));
+        if (!names) return ppmi_obj_out_of_memory(r);
+        status = read_list(r, names);
+        ppmi_free(r->context, names);
+    }
+    return status;
+}

@@ -1,0 +1,299 @@
+/* Meshes: the faces of one node, by material, with vertices that are shared where position, texture
+ * coordinate and normal are the same. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "obj/obj_reader.h"
+
+/* ---- order ----------------------------------------------------------------------------------- */
+
+static int compare_runs(const void *a, const void *b)
+{
+    const ppmi_obj_run *x = a, *y = b;
+    if (x->object != y->object) return x->object < y->object ? -1 : 1;
+    if (x->material != y->material) return x->material < y->material ? -1 : 1;
+    return x->first_face < y->first_face ? -1 : x->first_face > y->first_face;
+}
+
+/* Runs of one node and one material. */
+typedef struct slice {
+    const ppmi_obj_run *runs;
+    size_t count;
+} slice;
+
+static ppmi_obj_corner *corners_of(const ppmi_obj_reader *r, const ppmi_obj_run *run)
+{
+    return (ppmi_obj_corner *)r->corners.items + run->first_corner;
+}
+
+static size_t corner_count(const ppmi_obj_reader *r, const ppmi_obj_run *run)
+{
+    const uint32_t *faces = r->faces.items;
+    size_t count = 0;
+    for (size_t i = run->first_face; i < run->end_face; ++i) {
+        count += faces[i];
+    }
+    return count;
+}
+
+/* ---- a primitive ----------------------------------------------------------------------------- */
+
+/* Arrays of a primitive while it is made. */
+typedef struct geometry {
+    ppmi_obj_triples vertices; /* position, uv, normal */
+    uint32_t *indices;
+    size_t triangle_count;
+    bool has_uvs, has_normals; /* of some corner */
+    bool lacks_normals;        /* of some corner */
+    float *positions, *uvs, *normals, *colors;
+} geometry;
+
+static void geometry_deinit(ppm_context *context, geometry *g)
+{
+    ppmi_obj_triples_deinit(context, &g->vertices);
+    ppmi_free(context, g->indices);
+    ppmi_free(context, g->positions);
+    ppmi_free(context, g->uvs);
+    ppmi_free(context, g->normals);
+    ppmi_free(context, g->colors);
+}
+
+static void survey(const ppmi_obj_reader *r, const slice *s, geometry *g)
+{
+    for (size_t i = 0; i < s->count; ++i) {
+        const ppmi_obj_corner *corners = corners_of(r, &s->runs[i]);
+        const size_t count = corner_count(r, &s->runs[i]);
+        g->triangle_count += count - 2 * (s->runs[i].end_face - s->runs[i].first_face);
+        for (size_t k = 0; k < count; ++k) {
+            g->has_uvs = g->has_uvs || corners[k].uv >= 0;
+            g->has_normals = g->has_normals || corners[k].normal >= 0;
+            g->lacks_normals = g->lacks_normals || corners[k].normal < 0;
+        }
+    }
+}
+
+/* Gives corners without a normal the face's, where others have one. False when memory is out. */
+static bool add_flat_normal(ppmi_obj_reader *r, ppmi_obj_corner *corners, uint32_t count,
+                            const double normal[3])
+{
+    const double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    float *added = NULL;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (corners[i].normal >= 0) continue;
+        if (!added) {
+            if (r->normals.count >= INT32_MAX) return false;
+            added = ppmi_obj_push(r->context, &r->normals, 1, 3 * sizeof *added);
+            if (!added) return false;
+            for (int k = 0; k < 3; ++k) {
+                added[k] = (float)(size > 0.0 ? normal[k] / size : 0.0);
+            }
+        }
+        corners[i].normal = (int32_t)(r->normals.count - 1);
+    }
+    return true;
+}
+
+/* Triangulates a face and numbers its vertices. */
+static bool add_face(ppmi_obj_reader *r, geometry *g, ppmi_obj_corner *corners, uint32_t count,
+                     uint32_t *out)
+{
+    double normal[3] = {0.0, 0.0, 0.0};
+    const bool is_mixed = g->has_normals && g->lacks_normals;
+    if (count > 3 || is_mixed) ppmi_obj_face_normal(r, corners, count, normal);
+    if (is_mixed && !add_flat_normal(r, corners, count, normal)) return false;
+    if (!ppmi_obj_triangulate(r->context, &r->polygons, r->positions.items, corners, count, normal,
+                              out)) {
+        return false;
+    }
+    for (size_t i = 0; i < 3 * ((size_t)count - 2); ++i) {
+        const ppmi_obj_corner *corner = &corners[out[i]];
+        const ppmi_obj_triple key = {corner->position, corner->uv, corner->normal};
+        if (!ppmi_obj_triples_add(r->context, &g->vertices, key, &out[i])) return false;
+    }
+    return true;
+}
+
+static bool add_faces(ppmi_obj_reader *r, const slice *s, geometry *g)
+{
+    const uint32_t *faces = r->faces.items;
+    uint32_t *out = g->indices;
+    for (size_t i = 0; i < s->count; ++i) {
+        ppmi_obj_corner *corners = corners_of(r, &s->runs[i]);
+        for (size_t k = s->runs[i].first_face; k < s->runs[i].end_face; ++k) {
+            if (!add_face(r, g, corners, faces[k], out)) return false;
+            corners += faces[k];
+            out += 3 * ((size_t)faces[k] - 2);
+        }
+    }
+    return true;
+}
+
+static float srgb_to_linear(float x)
+{
+    x = fminf(fmaxf(x, 0.0f), 1.0f);
+    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
+}
+
+static void write_vertex(const ppmi_obj_reader *r, ppmi_obj_triple t, size_t i, geometry *g)
+{
+    const float *positions = r->positions.items, *uvs = r->uvs.items, *normals = r->normals.items;
+    memcpy(g->positions + 3 * i, positions + 3 * (size_t)t.a, 3 * sizeof *positions);
+    if (g->uvs) {
+        g->uvs[2 * i] = t.b >= 0 ? uvs[2 * (size_t)t.b] : 0.0f;
+        g->uvs[2 * i + 1] = t.b >= 0 ? 1.0f - uvs[2 * (size_t)t.b + 1] : 0.0f;
+    }
+    if (g->normals) {
+        memcpy(g->normals + 3 * i, normals + 3 * (size_t)t.c, 3 * sizeof *normals);
+    }
+    for (size_t k = 0; g->colors && k < 3; ++k) {
+        const float color = ((const float *)r->colors.items)[3 * (size_t)t.a + k];
+        g->colors[4 * i + k] = srgb_to_linear(color * r->color_scale);
+    }
+    if (g->colors) g->colors[4 * i + 3] = 1.0f;
+}
+
+static bool write_vertices(ppmi_obj_reader *r, geometry *g)
+{
+    const size_t count = g->vertices.items.count;
+    const bool has_colors = r->colors.count > 0;
+    g->positions = ppmi_alloc(r->context, count, 3 * sizeof *g->positions);
+    if (g->has_uvs) g->uvs = ppmi_alloc(r->context, count, 2 * sizeof *g->uvs);
+    if (g->has_normals) g->normals = ppmi_alloc(r->context, count, 3 * sizeof *g->normals);
+    if (has_colors) g->colors = ppmi_alloc(r->context, count, 4 * sizeof *g->colors);
+    if (!g->positions || (g->has_uvs && !g->uvs) || (g->has_normals && !g->normals) ||
+        (has_colors && !g->colors)) {
+        return false;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        write_vertex(r, ((const ppmi_obj_triple *)g->vertices.items.items)[i], i, g);
+    }
+    return true;
+}
+
+static void describe(const geometry *g, ppm_material_id material, ppm_primitive_desc *out)
+{
+    *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertices.items.count,
+                                .triangle_count = (uint32_t)g->triangle_count,
+                                .positions = g->positions,
+                                .normals = g->normals,
+                                .uvs = {g->uvs},
+                                .colors = g->colors,
+                                .indices = g->indices,
+                                .material = material};
+}
+
+static ppm_status make_primitive(ppmi_obj_reader *r, const slice *s, geometry *g,
+                                 ppm_primitive_desc *out)
+{
+    ppm_material_id material = 0;
+    const uint32_t used = s->runs[0].material;
+    const ppm_status status =
+        used > 0 ? ppmi_obj_use_material(r, used - 1, &material) : PPM_STATUS_OK;
+    if (status != PPM_STATUS_OK) return status;
+    survey(r, s, g);
+    if (g->triangle_count > UINT32_MAX / 3) {
+        return ppmi_fail(r->context, PPM_STATUS_INPUT_UNSUPPORTED,
+                         "%s: '%s' has more than 2^32 corners of one material", r->path,
+                         ppmi_obj_names_get(&r->objects, s->runs[0].object));
+    }
+    g->indices = ppmi_alloc(r->context, g->triangle_count, 3 * sizeof *g->indices);
+    if (!g->indices || !add_faces(r, s, g)) return ppmi_obj_out_of_memory(r);
+    if (!write_vertices(r, g)) return ppmi_obj_out_of_memory(r);
+    describe(g, material, out);
+    /* no longer needed, and as large as what is */
+    ppmi_obj_triples_deinit(r->context, &g->vertices);
+    return PPM_STATUS_OK;
+}
+
+/* ---- a node ---------------------------------------------------------------------------------- */
+
+/* Nodes of faces without o or g have the file's name. */
+static ppm_status add_node(ppmi_obj_reader *r, uint32_t object, const ppm_primitive_desc *descs,
+                           size_t count)
+{
+    const char *name = ppmi_obj_names_get(&r->objects, object);
+    const ppm_mesh_desc mesh = {.size = sizeof mesh,
+                                .name = *name ? name : r->stem,
+                                .primitive_count = (uint32_t)count,
+                                .primitives = descs};
+    ppm_instance_desc instance = {.size = sizeof instance, .name = mesh.name};
+    ppm_instance_id id;
+    for (int i = 0; i < 4; ++i) {
+        instance.transform[5 * i] = 1.0f;
+    }
+    const ppm_status status = ppm_scene_add_mesh(r->scene, &mesh, &instance.mesh);
+    return status == PPM_STATUS_OK ? ppm_scene_add_instance(r->scene, &instance, &id) : status;
+}
+
+static size_t same_material(const ppmi_obj_run *runs, size_t count)
+{
+    size_t i = 1;
+    while (i < count && runs[i].material == runs[0].material) {
+        ++i;
+    }
+    return i;
+}
+
+static size_t count_materials(const ppmi_obj_run *runs, size_t count)
+{
+    size_t materials = 0;
+    for (size_t i = 0; i < count; i += same_material(runs + i, count - i)) {
+        ++materials;
+    }
+    return materials;
+}
+
+static ppm_status emit_object(ppmi_obj_reader *r, const ppmi_obj_run *runs, size_t count)
+{
+    const size_t most = count_materials(runs, count);
+    geometry *all = ppmi_alloc_zeroed(r->context, most, sizeof *all);
+    ppm_primitive_desc *descs = ppmi_alloc(r->context, most, sizeof *descs);
+    ppm_status status = all && descs ? PPM_STATUS_OK : ppmi_obj_out_of_memory(r);
+    size_t done = 0;
+    for (size_t i = 0; i < count && status == PPM_STATUS_OK; ++done) {
+        const slice s = {runs + i, same_material(runs + i, count - i)};
+        status = make_primitive(r, &s, &all[done], &descs[done]);
+        i += s.count;
+    }
+    if (status == PPM_STATUS_OK) status = add_node(r, runs[0].object, descs, done);
+    for (size_t i = 0; all && i < most; ++i) {
+        geometry_deinit(r->context, &all[i]);
+    }
+    ppmi_free(r->context, all);
+    ppmi_free(r->context, descs);
+    return status;
+}
+
+/* Colours beyond 1 are those of programs that write 0 .. 255. */
+static void find_color_scale(ppmi_obj_reader *r)
+{
+    const float *colors = r->colors.items;
+    float most = 0.0f;
+    for (size_t i = 0; i < 3 * r->colors.count; ++i) {
+        most = fmaxf(most, colors[i]);
+    }
+    r->color_scale = most > 1.0f ? 1.0f / 255.0f : 1.0f;
+    if (most > 1.0f) {
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: vertex colours go up to %g: they are read as 0 .. 255", r->path,
+                 (double)most);
+    }
+}
+
+ppm_status ppmi_obj_emit(ppmi_obj_reader *r)
+{
+    ppmi_obj_run *runs = r->runs.items;
+    ppm_status status = PPM_STATUS_OK;
+    if (r->runs.count > 1) qsort(runs, r->runs.count, sizeof *runs, compare_runs);
+    find_color_scale(r);
+    for (size_t i = 0; i < r->runs.count && status == PPM_STATUS_OK;) {
+        size_t end = i + 1;
+        while (end < r->runs.count && runs[end].object == runs[i].object) {
+            ++end;
+        }
+        status = emit_object(r, runs + i, end - i);
+        i = end;
+    }
+    return status;
+}
