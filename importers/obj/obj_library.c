@@ -150,13 +150,12 @@ static char *next_of_material(void *user, size_t *out_length)
 
 /* ---- a library ------------------------------------------------------------------------------- */
 
-/* Keeps a material; of several with one name the first counts. */
+/* Keeps a material, unless one of its name was there before. */
 static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
-                                const ppmi_obj_material *material)
+                                const ppmi_obj_material *material, bool *out_is_kept)
 {
     uint32_t index;
     const uint32_t known = ppmi_obj_names_count(&r->library_materials);
-    ppmi_obj_material *added = NULL;
     if (!ppmi_obj_names_add(r->context, &r->library_materials, name, strlen(name), &index)) {
         return ppmi_obj_out_of_memory(r);
     }
@@ -164,15 +163,12 @@ static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
         ppmi_log(r->context, PPM_LOG_WARNING,
                  "%s: line %zu: material '%s' left out: there was one of that name before",
                  ppmi_obj_names_get(&r->libraries, material->library), material->line, name);
-        ppmi_obj_mtl_destroy(material->mtl);
         return PPM_STATUS_OK;
     }
-    added = ppmi_obj_push(r->context, &r->materials, 1, sizeof *added);
-    if (!added) {
-        ppmi_obj_mtl_destroy(material->mtl);
-        return ppmi_obj_out_of_memory(r);
-    }
+    ppmi_obj_material *added = ppmi_obj_push(r->context, &r->materials, 1, sizeof *added);
+    if (!added) return ppmi_obj_out_of_memory(r);
     *added = *material;
+    *out_is_kept = true;
     return PPM_STATUS_OK;
 }
 
@@ -187,7 +183,9 @@ static ppm_status read_material(library *l, uint32_t index)
     ppm_status status =
         ppmi_obj_mtl_create(r->context, l->lines.path, next_of_material, l, &material.mtl);
     material.given = l->given;
-    if (status == PPM_STATUS_OK) status = keep_material(r, name, &material);
+    bool is_kept = false;
+    if (status == PPM_STATUS_OK) status = keep_material(r, name, &material, &is_kept);
+    if (!is_kept) ppmi_obj_mtl_destroy(material.mtl);
     ppmi_free(r->context, name);
     set_status(l, status);
     set_status(l, l->lines.status);

@@ -343,6 +343,16 @@ static bool is_for_parser(const char *text, size_t word)
     return word == 2 && text[0] == 'v' && (text[1] == 't' || text[1] == 'n');
 }
 
+/* Takes away slashes with nothing behind them ("1//"), behind which the parser would read on in the
+ * next corner. */
+static void drop_open_slashes(char *text, size_t length)
+{
+    for (size_t i = length; i-- > 0;) {
+        const bool is_open = text[i] == '/' && (i + 1 == length || ppmi_obj_is_blank(text[i + 1]));
+        if (is_open) text[i] = ' ';
+    }
+}
+
 /* ppmi_obj_next_fn: reads state until there is something for the parser. */
 static char *next_for_parser(void *user, size_t *out_length)
 {
@@ -356,7 +366,8 @@ static char *next_for_parser(void *user, size_t *out_length)
         if (is_for_parser(text, word)) {
             const char *comment = memchr(text, '#', length);
             if (comment) ppmi_obj_cut(text, &length, (size_t)(comment - text));
-            if (length == 1 && text[0] == 'f') r->tally.small_faces++;
+            if (text[0] == 'f') drop_open_slashes(text, length);
+            if (text[0] == 'f' && length == 1) r->tally.small_faces++;
             r->text = text;
             r->text_length = *out_length = length;
             return text;

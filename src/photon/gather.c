@@ -65,20 +65,26 @@ static void add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
     gathered->count += 1.0f;
 }
 
-/* The photons of a block that lie within the disk: index and squared distance. Branch-free, so that
- * the block's distance tests are not held up by their outcome. */
-static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint32_t end,
+/* The photons of a block that lie within the disk: index and squared distance. The tests come
+ * first, for all, so that they are vectorised; picking follows without a branch. */
+static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint32_t count,
                              ppmi_vec3 p, ppmi_vec3 n, float radius2, float thickness,
                              uint32_t *indices, float *distances2)
 {
-    uint32_t selected = 0;
-    for (uint32_t i = begin; i < end; i++) {
-        const float dx = grid->x[i] - p.x, dy = grid->y[i] - p.y, dz = grid->z[i] - p.z;
-        const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float *x = grid->x + begin, *y = grid->y + begin, *z = grid->z + begin;
+    float all_distances2[CANDIDATES];
+    uint32_t is_inside[CANDIDATES];
+    for (uint32_t i = 0; i < count; i++) {
+        const float dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z;
+        all_distances2[i] = dx * dx + dy * dy + dz * dz;
         const float off_plane = fabsf(dx * n.x + dy * n.y + dz * n.z);
-        indices[selected] = i;
-        distances2[selected] = distance2;
-        selected += (distance2 < radius2) & (off_plane <= thickness);
+        is_inside[i] = (all_distances2[i] < radius2) & (off_plane <= thickness);
+    }
+    uint32_t selected = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        indices[selected] = begin + i;
+        distances2[selected] = all_distances2[i];
+        selected += is_inside[i];
     }
     return selected;
 }
@@ -95,10 +101,10 @@ ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table 
     for (uint32_t r = 0; r < run_count; r++) {
         for (uint32_t begin = runs[r].begin; begin < runs[r].end; begin += CANDIDATES) {
             const uint32_t left = runs[r].end - begin;
-            const uint32_t end = begin + (left < CANDIDATES ? left : CANDIDATES);
+            const uint32_t count = left < CANDIDATES ? left : CANDIDATES;
             uint32_t indices[CANDIDATES];
             float distances2[CANDIDATES];
-            const uint32_t selected = select_block(grid, begin, end, p, bsdf->ng, radius2,
+            const uint32_t selected = select_block(grid, begin, count, p, bsdf->ng, radius2,
                                                    thickness, indices, distances2);
             for (uint32_t k = 0; k < selected; k++) {
                 const float kernel = 2.0f * (1.0f - distances2[k] / radius2);

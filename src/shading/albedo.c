@@ -4,15 +4,14 @@
 #include "math/sampler.h"
 #include "shading/microfacet.h"
 
-static ppmi_albedo_pair integrate(float alpha, float cosine)
+enum { SAMPLE_COUNT = 1024 };
+
+static ppmi_albedo_pair integrate(const ppmi_vec2 samples[SAMPLE_COUNT], float alpha, float cosine)
 {
-    const uint32_t sample_count = 1024;
     const ppmi_vec3 wo = vec3(sqrtf(ppmi_max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
     double a = 0.0, b = 0.0;
-    for (uint32_t i = 0; i < sample_count; i++) {
-        const ppmi_sample4 sample = ppmi_sobol4(i, 0, 0);
-        const ppmi_vec3 h = ppmi_ggx_sample_visible(alpha, wo, ppmi_unit_float(sample.bits[0]),
-                                                    ppmi_unit_float(sample.bits[1]));
+    for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
+        const ppmi_vec3 h = ppmi_ggx_sample_visible(alpha, wo, samples[i].x, samples[i].y);
         const float cos_oh = vec3_dot(wo, h);
         const float cos_i = 2.0f * cos_oh * h.z - wo.z;
         if (cos_i <= 0.0f || cos_oh <= 0.0f) continue;
@@ -21,7 +20,7 @@ static ppmi_albedo_pair integrate(float alpha, float cosine)
         a += (double)(weight * (1.0f - schlick));
         b += (double)(weight * schlick);
     }
-    return (ppmi_albedo_pair){(float)(a / sample_count), (float)(b / sample_count)};
+    return (ppmi_albedo_pair){(float)(a / SAMPLE_COUNT), (float)(b / SAMPLE_COUNT)};
 }
 
 static ppmi_albedo_pair mirror(float cosine)
@@ -47,6 +46,11 @@ static ppmi_albedo_pair average_of(const ppmi_albedo_pair *row)
 
 void ppmi_albedo_table_init(ppmi_albedo_table *table)
 {
+    ppmi_vec2 samples[SAMPLE_COUNT];
+    for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
+        const ppmi_sample4 sample = ppmi_sobol4(i, 0, 0);
+        samples[i] = (ppmi_vec2){ppmi_unit_float(sample.bits[0]), ppmi_unit_float(sample.bits[1])};
+    }
     for (int r = 0; r < PPMI_ALBEDO_ROUGHNESSES; r++) {
         const float roughness = (float)r / (PPMI_ALBEDO_ROUGHNESSES - 1);
         const float alpha = roughness * roughness;
@@ -54,7 +58,7 @@ void ppmi_albedo_table_init(ppmi_albedo_table *table)
             /* at exactly 0 nothing is visible: the limit is taken close by */
             const float cosine = ppmi_max((float)c / (PPMI_ALBEDO_COSINES - 1), 1e-3f);
             table->directional[r][c] =
-                alpha < PPMI_SMOOTH_ALPHA ? mirror(cosine) : integrate(alpha, cosine);
+                alpha < PPMI_SMOOTH_ALPHA ? mirror(cosine) : integrate(samples, alpha, cosine);
         }
         table->average[r] = average_of(table->directional[r]);
     }

@@ -27,11 +27,9 @@ static float index_of(float ior)
     return ior == 0.0f ? 1e4f : ppmi_max(ior, 1.0f);
 }
 
-static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average,
                       const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque)
 {
-    const ppmi_albedo_pair at_o = ppmi_albedo_directional(albedo, point->roughness, bsdf->wo.z);
-    const ppmi_albedo_pair average = ppmi_albedo_average(albedo, point->roughness);
     bsdf->coat_f0 = vec3_max_component(dielectric_f0);
     bsdf->coat_f90 = point->specular;
     const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
@@ -52,10 +50,8 @@ static void make_wide(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     }
 }
 
-static void make_lobe_masks(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average)
 {
-    const ppmi_albedo_pair at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
-    const ppmi_albedo_pair average = ppmi_albedo_average(albedo, bsdf->roughness);
     const float coat_left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
     float albedos[3];
     albedos[0] = vec3_max_component(bsdf->coat_base) * coat_left +
@@ -87,6 +83,12 @@ static void make_glass(ppmi_bsdf *bsdf, const ppmi_material_point *point, bool i
     bsdf->glass_alpha = bsdf->alpha;
     /* without an index step there is no half vector: the ray goes straight on */
     if (fabsf(index - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
+}
+
+/* Nothing reflects but the diffuse base: the albedo table is not needed. */
+static bool is_lambert(const ppmi_bsdf *bsdf)
+{
+    return vec3_is_black(bsdf->f0) && vec3_is_black(bsdf->f90);
 }
 
 /* A shading normal that wo sees from behind would be black: it is bent until wo just sees it. */
@@ -126,8 +128,13 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     make_glass(bsdf, point, is_outside);
     ppmi_material_point opaque_point = *point;
     opaque_point.metallic = metal;
-    make_wide(bsdf, albedo, &opaque_point, dielectric_f0, opaque);
-    make_lobe_masks(bsdf, albedo);
+    ppmi_albedo_pair at_o = {0.0f, 0.0f}, average = {0.0f, 0.0f};
+    if (!is_lambert(bsdf)) {
+        at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
+        average = ppmi_albedo_average(albedo, bsdf->roughness);
+    }
+    make_wide(bsdf, at_o, average, &opaque_point, dielectric_f0, opaque);
+    make_lobe_masks(bsdf, at_o, average);
 }
 
 /* ---- evaluation ------------------------------------------------------------------------------ */

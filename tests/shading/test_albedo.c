@@ -22,7 +22,7 @@ static void albedo_by_directions(float alpha, float cosine, ppmi_rng *rng, test_
         const float u = ppmi_rng_float(rng), v = ppmi_rng_float(rng);
         const ppmi_vec3 wi = ppmi_sample_cosine_hemisphere(u, v);
         const ppmi_vec3 h = vec3_normalize(vec3_add(wo, wi));
-        const double value = (double)(ppmi_ggx_d(alpha, h.z) * ppmi_ggx_g2(alpha, wo.z, wi.z) /
+        const double value = (double)(ppmi_ggx_d(alpha, h) * ppmi_ggx_g2(alpha, wo.z, wi.z) /
                                       (4.0f * wo.z * ppmi_max(wi.z, 1e-6f)) * PPMI_PI);
         const double schlick = (double)ppmi_schlick_weight(vec3_dot(wo, h));
         mean_add(a, value * (1.0 - schlick));
