@@ -91,10 +91,11 @@ static bool is_lambert(const ppmi_bsdf *bsdf)
     return vec3_is_black(bsdf->f0) && vec3_is_black(bsdf->f90);
 }
 
-/* A shading normal that wo sees from behind would be black: it is bent until wo just sees it. */
-static ppmi_vec3 visible_normal(ppmi_vec3 ns, ppmi_vec3 wo)
+/* A shading normal that wo sees from behind would be black: it is bent until wo just sees it, but
+ * never beyond the geometric normal, which on a flat surface is the right one at any angle. */
+static ppmi_vec3 visible_normal(ppmi_vec3 ns, ppmi_vec3 ng, ppmi_vec3 wo)
 {
-    const float least = 0.02f;
+    const float least = ppmi_min(0.02f, vec3_dot(ng, wo));
     const float cosine = vec3_dot(ns, wo);
     if (cosine >= least) return ns;
     return vec3_normalize(vec3_mad(ns, wo, least - cosine));
@@ -108,7 +109,7 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     const bool is_outside = vec3_dot(wo, surface->ng) >= 0.0f;
     bsdf->ng = is_outside ? surface->ng : vec3_neg(surface->ng);
     const ppmi_vec3 ns = is_outside ? point->ns : vec3_neg(point->ns);
-    bsdf->frame = ppmi_frame_from_normal(visible_normal(ns, wo));
+    bsdf->frame = ppmi_frame_from_normal(visible_normal(ns, bsdf->ng, wo));
     bsdf->wo = ppmi_frame_to_local(&bsdf->frame, wo);
     bsdf->wo.z = ppmi_max(bsdf->wo.z, 1e-4f);
     bsdf->roughness = point->roughness;
