@@ -226,6 +226,42 @@ static ppm_status check_reach(ppmi_obj_reader *r, const ppmi_obj_reach *reach, s
                      what, (int)reach->most, count);
 }
 
+/* Programs that strip texture vertices or normals may leave their indices behind: where there are
+ * none at all, such indices mean nothing. */
+static void drop_indices_of_nothing(ppmi_obj_reader *r)
+{
+    const bool drops_uvs = r->uvs.count == 0 && r->uv_reach.most > 0;
+    const bool drops_normals = r->normals.count == 0 && r->normal_reach.most > 0;
+    ppmi_obj_corner *corners = r->corners.items;
+    for (size_t i = 0; (drops_uvs || drops_normals) && i < r->corners.count; ++i) {
+        if (drops_uvs) corners[i].uv = -1;
+        if (drops_normals) corners[i].normal = -1;
+    }
+    if (drops_uvs) {
+        r->uv_reach.most = 0;
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: faces have texture vertices, of which there are none", r->path);
+    }
+    if (drops_normals) {
+        r->normal_reach.most = 0;
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: faces have vertex normals, of which there are none", r->path);
+    }
+}
+
+static ppm_status check_indices(ppmi_obj_reader *r)
+{
+    drop_indices_of_nothing(r);
+    ppm_status status = check_reach(r, &r->position_reach, r->positions.count, "vertex");
+    if (status == PPM_STATUS_OK) {
+        status = check_reach(r, &r->uv_reach, r->uvs.count, "texture vertex");
+    }
+    if (status == PPM_STATUS_OK) {
+        status = check_reach(r, &r->normal_reach, r->normals.count, "vertex normal");
+    }
+    return status;
+}
+
 /* ---- state ----------------------------------------------------------------------------------- */
 
 static void set_name(ppmi_obj_reader *r, char **name, const char *text, size_t length)
@@ -343,13 +379,17 @@ static bool is_for_parser(const char *text, size_t word)
     return word == 2 && text[0] == 'v' && (text[1] == 't' || text[1] == 'n');
 }
 
-/* Takes away slashes with nothing behind them ("1//"), behind which the parser would read on in the
- * next corner. */
-static void drop_open_slashes(char *text, size_t length)
+/* Looks through an f statement for what the parser would misread: slashes with nothing behind them
+ * ("1//"), behind which it would go on in the next corner, are taken away; numbers that wrap around
+ * in 32 bits are refused. */
+static void check_face_text(ppmi_obj_reader *r, char *text, size_t length)
 {
+    size_t digits = 0;
     for (size_t i = length; i-- > 0;) {
         const bool is_open = text[i] == '/' && (i + 1 == length || ppmi_obj_is_blank(text[i + 1]));
         if (is_open) text[i] = ' ';
+        digits = text[i] >= '0' && text[i] <= '9' ? digits + 1 : 0;
+        if (digits > 9) invalid(r, "a face has an index of more than nine digits");
     }
 }
 
@@ -366,7 +406,7 @@ static char *next_for_parser(void *user, size_t *out_length)
         if (is_for_parser(text, word)) {
             const char *comment = memchr(text, '#', length);
             if (comment) ppmi_obj_cut(text, &length, (size_t)(comment - text));
-            if (text[0] == 'f') drop_open_slashes(text, length);
+            if (text[0] == 'f') check_face_text(r, text, length);
             if (text[0] == 'f' && length == 1) r->tally.small_faces++;
             r->text = text;
             r->text_length = *out_length = length;
@@ -394,13 +434,5 @@ ppm_status ppmi_obj_read_statements(ppmi_obj_reader *r)
     if (status == PPM_STATUS_OK) status = r->lines.status;
     if (status == PPM_STATUS_OK) status = r->status;
     ppmi_obj_lines_close(&r->lines);
-    if (status != PPM_STATUS_OK) return status;
-    status = check_reach(r, &r->position_reach, r->positions.count, "vertex");
-    if (status == PPM_STATUS_OK) {
-        status = check_reach(r, &r->uv_reach, r->uvs.count, "texture vertex");
-    }
-    if (status == PPM_STATUS_OK) {
-        status = check_reach(r, &r->normal_reach, r->normals.count, "vertex normal");
-    }
-    return status;
+    return status == PPM_STATUS_OK ? check_indices(r) : status;
 }

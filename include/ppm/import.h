@@ -30,8 +30,8 @@ typedef struct ppm_import_options {
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
 } ppm_import_options;
 
-/* Reads path (.gltf, .glb; the ending decides, letter case does not matter) into scene, which may
- * already hold other things. options may be NULL. Choices and omissions are logged: INFO for
+/* Reads path (.gltf, .glb, .obj; the ending decides, letter case does not matter) into scene, which
+ * may already hold other things. options may be NULL. Choices and omissions are logged: INFO for
  * policies, WARNING for what is left out.
  *
  * Missing or broken images and unused broken parts are left out with a warning. Anything that

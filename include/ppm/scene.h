@@ -226,13 +226,17 @@ PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *d
 
 /* The surroundings: a radiance for every direction. */
 typedef struct ppm_environment_desc {
-    uint32_t size;      /* sizeof(ppm_environment_desc) */
-    float radiance[3];  /* nit, linear Rec.709; multiplies the image if there is one */
-    ppm_image_id image; /* latitude-longitude, row 0 is up (+Y), the middle column is -Z; or 0 */
-    float rotation_rad; /* turns the image about +Y, counter-clockwise seen from above */
+    uint32_t size;         /* sizeof(ppm_environment_desc) */
+    float radiance[3];     /* nit, linear Rec.709; multiplies the image if there is one */
+    ppm_image_id image;    /* latitude-longitude, row 0 is up (+Y), the middle column is -Z; or 0 */
+    float rotation_rad;    /* turns the image about +Y, counter-clockwise seen from above */
+    uint32_t has_backdrop; /* non-zero: backdrop applies */
+    float backdrop[3];     /* nit, linear Rec.709 */
 } ppm_environment_desc;
 
-/* Sets or replaces the environment. Without one it is black. */
+/* Sets or replaces the environment. Without one it is black.
+ * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
+ * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
 
 /* ---- facts ----------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include "color/color.h"
 #include "gltf/gltf_import.h"
 #include "imageio/imageio.h"
+#include "obj/obj_import.h"
 #include "ppm/import.h"
 #include "scene/scene.h"
 
@@ -126,6 +127,9 @@ ppm_status ppm_scene_import(ppm_scene *scene, const char *path, const ppm_import
     if (dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0)) {
         return ppmi_gltf_import(scene->context, scene, path, options);
     }
+    if (dot && strcasecmp(dot, ".obj") == 0) {
+        return ppmi_obj_import(scene->context, scene, path, options);
+    }
     return ppmi_fail(scene->context, PPM_STATUS_INPUT_UNSUPPORTED,
-                     "%s: not a glTF file by its ending; .gltf and .glb can be read", path);
+                     "%s: the ending is none of .gltf, .glb and .obj", path);
 }

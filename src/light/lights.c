@@ -413,6 +413,13 @@ ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi)
     return ppmi_environment_map_radiance(&lights->environment, wi);
 }
 
+ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction)
+{
+    const ppmi_environment *environment = &lights->scene->environment;
+    return environment->has_backdrop ? environment->backdrop
+                                     : ppmi_lights_environment(lights, direction);
+}
+
 /* ---- photon emission ------------------------------------------------------------------------- */
 
 static bool emit_triangle(const ppmi_lights *lights, const emitter *e, const float u[4],

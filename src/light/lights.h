@@ -41,6 +41,9 @@ float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_v
 /* Radiance of the environment from direction wi. */
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi);
 
+/* What a camera ray sees that meets nothing: the backdrop, or else the environment. */
+ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction);
+
 /* A photon as it leaves a light. power is that of all light through this one photon: divide by the
  * number of photons of a pass. */
 typedef struct ppmi_emission {

@@ -125,6 +125,7 @@ ppmi_vec3 ppmi_eye_path(ppmi_walker *walker, const ppmi_camera_ray *camera_ray, 
         ppmi_vertex vertex;
         const ppmi_ray_kind kind = depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
         if (!ppmi_walk_to_surface(walker, state.ray, kind, &vertex)) {
+            if (depth == 0) return ppmi_lights_backdrop(walker->world->lights, state.ray.direction);
             add(&state, state.light_throughput,
                 ppmi_walk_environment(walker, state.ray.direction, &state.origin));
             break;

@@ -55,6 +55,7 @@ static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_dept
         ppmi_vertex vertex;
         const ppmi_ray_kind kind = depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
         if (!ppmi_walk_to_surface(walker, ray, kind, &vertex)) {
+            if (depth == 0) return ppmi_lights_backdrop(walker->world->lights, ray.direction);
             const ppmi_vec3 sky = ppmi_walk_environment(walker, ray.direction, &origin);
             return vec3_add(radiance, vec3_mul(throughput, sky));
         }

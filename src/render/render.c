@@ -118,12 +118,15 @@ static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *opt
                  "no camera in the scene: the model is framed from a three-quarter view");
     }
     if (!ppmi_scene_has_light(scene)) {
+        /* white things before a white sky could not be seen: the camera sees a grey */
         const ppm_environment_desc environment = {.size = sizeof environment,
-                                                  .radiance = {1.0f, 1.0f, 1.0f}};
+                                                  .radiance = {1.0f, 1.0f, 1.0f},
+                                                  .has_backdrop = 1,
+                                                  .backdrop = {0.25f, 0.25f, 0.25f}};
         status = ppm_scene_set_environment(scene, &environment);
         ppmi_log(scene->context, PPM_LOG_INFO,
                  "no light in the scene but emissive textures at most: lit by a uniform "
-                 "environment of 1 nit");
+                 "environment of 1 nit, before a grey backdrop");
     }
     return status;
 }

@@ -241,15 +241,18 @@ ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_des
     const ppm_status status = ppmi_scene_check_open(scene);
     if (status != PPM_STATUS_OK) return status;
     if (!desc || desc->size < sizeof *desc || !all_in(desc->radiance, 3, 0.0f, 1e18f) ||
-        desc->image > scene->image_count || !isfinite(desc->rotation_rad)) {
+        !all_in(desc->backdrop, 3, 0.0f, 1e18f) || desc->image > scene->image_count ||
+        !isfinite(desc->rotation_rad)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "environment: radiance, image or rotation out of range");
+                         "environment: radiance, backdrop, image or rotation out of range");
     }
     scene->environment = (ppmi_environment){
         .is_set = true,
         .radiance = vec3_load(desc->radiance),
         .image = desc->image,
         .rotation_rad = desc->rotation_rad,
+        .has_backdrop = desc->has_backdrop != 0,
+        .backdrop = vec3_load(desc->backdrop),
     };
     return PPM_STATUS_OK;
 }

@@ -83,6 +83,8 @@ typedef struct ppmi_environment {
     ppmi_vec3 radiance;
     uint32_t image; /* index + 1; 0: constant */
     float rotation_rad;
+    bool has_backdrop;
+    ppmi_vec3 backdrop;
 } ppmi_environment;
 
 struct ppm_scene {

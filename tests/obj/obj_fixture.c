@@ -98,10 +98,9 @@ const ppm_material_desc *obj_import_material(obj_fixture *f, const char *stateme
     char text[2048];
     snprintf(text, sizeof text, "newmtl m\n%s", statements);
     obj_write_text(f, "sub/scene.mtl", text);
-    assert_obj_status(f,
-                      obj_import(f, "mtllib scene.mtl\nusemtl m\nvt 0 0\n" OBJ_TRIANGLE
-                                    "f 1/1 2/1 3/1\n"),
-                      PPM_STATUS_OK);
+    assert_obj_status(
+        f, obj_import(f, "mtllib scene.mtl\nusemtl m\nvt 0 0\n" OBJ_TRIANGLE "f 1/1 2/1 3/1\n"),
+        PPM_STATUS_OK);
     assert_int_equal(f->scene->material_count, 1);
     return &f->scene->materials[0].desc;
 }

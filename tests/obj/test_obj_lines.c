@@ -18,8 +18,8 @@ static void read_statements(obj_fixture *f, const char *bytes, size_t count, cha
     out[0] = 0;
     for (char *text; (text = ppmi_obj_lines_next(&lines, &length));) {
         assert_int_equal(text[length], '\n');
-        used += (size_t)snprintf(out + used, size - used, "%zu:%.*s|", lines.number, (int)length,
-                                 text);
+        used +=
+            (size_t)snprintf(out + used, size - used, "%zu:%.*s|", lines.number, (int)length, text);
         assert_true(used < size);
     }
     assert_int_equal(lines.status, PPM_STATUS_OK);
@@ -51,8 +51,9 @@ static void the_last_line_needs_no_end(void **state)
 
 static void blanks_comments_and_a_byte_order_mark_are_left_out(void **state)
 {
-    check(*state, "\xef\xbb\xbf"
-                  " \t a  b\t \n\n  # c\n#d\ne",
+    check(*state,
+          "\xef\xbb\xbf"
+          " \t a  b\t \n\n  # c\n#d\ne",
           "1:a  b|5:e|");
 }
 
@@ -116,8 +117,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_backslash_at_the_end_continues_a_line, obj_setup,
                                         obj_teardown),
         cmocka_unit_test_setup_teardown(a_comment_does_not_continue, obj_setup, obj_teardown),
-        cmocka_unit_test_setup_teardown(
-            lines_may_be_longer_than_the_buffer_and_lie_across_its_end, obj_setup, obj_teardown),
+        cmocka_unit_test_setup_teardown(lines_may_be_longer_than_the_buffer_and_lie_across_its_end,
+                                        obj_setup, obj_teardown),
         cmocka_unit_test_setup_teardown(a_missing_file_and_a_folder_are_refused, obj_setup,
                                         obj_teardown),
     };
