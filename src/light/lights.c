@@ -29,7 +29,7 @@ struct ppmi_lights {
     ppmi_environment_map environment;
     bool has_environment;
 
-    uint32_t count; /* emitters; the environment is the last one */
+    uint32_t count; /* emitters: near lights, directional lights, the environment */
     emitter *emitters;
     ppmi_alias by_power; /* all emitters, for photons */
     ppmi_alias finite;   /* all but the environment, for light sampling */
@@ -177,6 +177,15 @@ static void add_triangles(ppmi_lights *lights, uint32_t instance, uint32_t primi
     }
 }
 
+static void add_punctuals(ppmi_lights *lights, bool directional)
+{
+    for (uint32_t i = 0; i < lights->scene->punctual_count; i++) {
+        if ((lights->scene->punctuals[i].kind == PPM_LIGHT_DIRECTIONAL) == directional) {
+            lights->emitters[lights->count++] = (emitter){.kind = EMITTER_PUNCTUAL, .triangle = i};
+        }
+    }
+}
+
 static void add_emitters(ppmi_lights *lights)
 {
     const ppm_scene *scene = lights->scene;
@@ -190,13 +199,16 @@ static void add_emitters(ppmi_lights *lights)
             if (emits) add_triangles(lights, i, k, &mesh->primitives[k]);
         }
     }
-    for (uint32_t i = 0; i < scene->punctual_count; i++) {
-        lights->emitters[lights->count++] = (emitter){.kind = EMITTER_PUNCTUAL, .triangle = i};
-    }
-    lights->finite_count = lights->count;
+    add_punctuals(lights, false);
+    lights->near_count = lights->count;
+    add_punctuals(lights, true);
+    lights->directional_count = lights->count - lights->near_count;
     if (lights->has_environment) {
         lights->emitters[lights->count++] = (emitter){.kind = EMITTER_ENVIRONMENT};
     }
+    const int classes = (lights->near_count > 0) + (lights->directional_count > 0) +
+                        (lights->has_environment ? 1 : 0);
+    lights->class_share = classes > 0 ? 1.0f / (float)classes : 0.0f;
 }
 
 static ppm_status build_tables(ppmi_lights *lights)
@@ -209,8 +221,12 @@ static ppm_status build_tables(ppmi_lights *lights)
         powers[i] = emitter_power(lights, &lights->emitters[i]);
     }
     ppm_status status = ppmi_alias_init(context, &lights->by_power, powers, lights->count);
-    if (status == PPM_STATUS_OK && lights->finite_count > 0) {
-        status = ppmi_alias_init(context, &lights->finite, powers, lights->finite_count);
+    if (status == PPM_STATUS_OK && lights->near_count > 0) {
+        status = ppmi_alias_init(context, &lights->near_lights, powers, lights->near_count);
+    }
+    if (status == PPM_STATUS_OK && lights->directional_count > 0) {
+        status = ppmi_alias_init(context, &lights->directionals, powers + lights->near_count,
+                                 lights->directional_count);
     }
     ppmi_free(context, powers);
     return status;
@@ -266,7 +282,8 @@ void ppmi_lights_destroy(ppmi_lights *lights)
     ppm_context *context = lights->context;
     ppmi_environment_map_deinit(context, &lights->environment);
     ppmi_alias_deinit(context, &lights->by_power);
-    ppmi_alias_deinit(context, &lights->finite);
+    ppmi_alias_deinit(context, &lights->near_lights);
+    ppmi_alias_deinit(context, &lights->directionals);
     ppmi_free(context, lights->emitters);
     ppmi_free(context, lights->first_slot);
     ppmi_free(context, lights->first_emitter);
@@ -279,13 +296,6 @@ uint64_t ppmi_lights_count(const ppmi_lights *lights)
 }
 
 /* ---- light sampling -------------------------------------------------------------------------- */
-
-/* Probability that light sampling turns to the environment. */
-static float environment_share(const ppmi_lights *lights)
-{
-    if (!lights->has_environment) return 0.0f;
-    return lights->finite_count > 0 ? 0.5f : 1.0f;
-}
 
 static float spot_falloff(const ppmi_punctual *light, float cosine)
 {
@@ -363,25 +373,43 @@ static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_
     return sample->pdf > 0.0f && !vec3_is_black(sample->radiance);
 }
 
+/* Draws from a class of finite choices; first is the class's first emitter. */
+static bool sample_by_power(const ppmi_lights *lights, const ppmi_alias *table, uint32_t first,
+                            ppmi_vec3 position, double u_pick, float u, float v,
+                            ppmi_light_sample *sample)
+{
+    const uint32_t i = ppmi_alias_sample(table, u_pick, NULL);
+    const emitter *e = &lights->emitters[first + i];
+    sample->pdf *= ppmi_alias_probability(table, i);
+    if (!(sample->pdf > 0.0f)) return false;
+    if (e->kind == EMITTER_PUNCTUAL) {
+        return sample_punctual(&lights->scene->punctuals[e->triangle], position, sample);
+    }
+    return sample_triangle(lights, e, position, u, v, sample);
+}
+
 bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
                         float u, float v, ppmi_light_sample *out_sample)
 {
     if (lights->count == 0) return false;
-    *out_sample = (ppmi_light_sample){0};
-    const float share = environment_share(lights);
-    if (u_pick < (double)share) {
-        out_sample->pdf = share;
-        return sample_environment(lights, n, u_pick / (double)share, u, v, out_sample);
+    const double share = (double)lights->class_share;
+    *out_sample = (ppmi_light_sample){.pdf = lights->class_share};
+    if (lights->has_environment) {
+        if (u_pick < share) {
+            return sample_environment(lights, n, u_pick / share, u, v, out_sample);
+        }
+        u_pick -= share;
     }
-    const double u_finite = (u_pick - (double)share) / (1.0 - (double)share);
-    const uint32_t i = ppmi_alias_sample(&lights->finite, u_finite, NULL);
-    const emitter *e = &lights->emitters[i];
-    out_sample->pdf = (1.0f - share) * ppmi_alias_probability(&lights->finite, i);
-    if (!(out_sample->pdf > 0.0f)) return false;
-    if (e->kind == EMITTER_PUNCTUAL) {
-        return sample_punctual(&lights->scene->punctuals[e->triangle], position, out_sample);
+    if (lights->directional_count > 0) {
+        if (u_pick < share || lights->near_count == 0) {
+            return sample_by_power(lights, &lights->directionals, lights->near_count, position,
+                                   u_pick / share, u, v, out_sample);
+        }
+        u_pick -= share;
     }
-    return sample_triangle(lights, e, position, u, v, out_sample);
+    if (lights->near_count == 0) return false;
+    return sample_by_power(lights, &lights->near_lights, 0, position, u_pick / share, u, v,
+                           out_sample);
 }
 
 float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
@@ -394,8 +422,8 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
     const float cosine = fabsf(vec3_dot(wi, surface->ng));
     const float area = lights->emitters[i].area;
     if (!(cosine > 1e-6f) || !(area > 0.0f)) return 0.0f;
-    return (1.0f - environment_share(lights)) * ppmi_alias_probability(&lights->finite, i) *
-           distance * distance / (cosine * area);
+    return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * distance *
+           distance / (cosine * area);
 }
 
 float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)
@@ -404,7 +432,7 @@ float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_v
     const float pdf = ppmi_environment_map_is_constant(map)
                           ? ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI
                           : ppmi_environment_map_pdf(map, wi);
-    return environment_share(lights) * pdf;
+    return lights->has_environment ? lights->class_share * pdf : 0.0f;
 }
 
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi)
