@@ -1,3 +1,5 @@
+/* Statements out of a buffer of the file: continuations are joined in place, so a line is copied
+ * only where it lies across the end of the buffer. */
 #include "obj/obj_lines.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+// tinyobjloader's callback interface on a stream of single statements.
 #include "obj/obj_shim.h"
 
 #include <algorithm>

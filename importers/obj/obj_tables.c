@@ -1,3 +1,4 @@
+/* Growing arrays and hash tables; a table that numbers what it holds needs no removal. */
 #include "obj/obj_tables.h"
 
 #include <string.h>
