@@ -1,9 +1,9 @@
 /* Light tables, light sampling and photon emission.
  *
- * Lights are chosen by power for photons. Light sampling at surfaces chooses among the finite
- * lights by the same table; where there is an environment as well, it gets half of the samples,
- * since its power (which grows with the size of the scene) says little about what arrives at a
- * point. */
+ * Lights are chosen by power for photons. Light sampling at surfaces first chooses a class, those
+ * that are there evenly: near lights (triangles, points, spots), directional lights, the
+ * environment. The power of the far ones grows with the size of the scene and says little about
+ * what arrives at a point. Within the first two classes the choice is by power. */
 #include "light/lights.h"
 
 #include "math/sampling.h"
@@ -31,9 +31,11 @@ struct ppmi_lights {
 
     uint32_t count; /* emitters: near lights, directional lights, the environment */
     emitter *emitters;
-    ppmi_alias by_power; /* all emitters, for photons */
-    ppmi_alias finite;   /* all but the environment, for light sampling */
-    uint32_t finite_count;
+    ppmi_alias by_power;     /* all emitters, for photons */
+    ppmi_alias near_lights;  /* the first near_count emitters, for light sampling */
+    ppmi_alias directionals; /* the next directional_count */
+    uint32_t near_count, directional_count;
+    float class_share;       /* of light samples, for each class that is there */
     uint32_t *first_slot;    /* per instance: where its primitives start in first_emitter */
     uint32_t *first_emitter; /* per instance and primitive: emitter of triangle 0, or NO_EMITTER */
 };
