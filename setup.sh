@@ -12,7 +12,7 @@ cd "$(dirname "$0")"
 
 build_packages="build-essential cmake ninja-build pkg-config
     libembree-dev libtinygltf-dev libopenimageio-dev libopencolorio-dev libjansson-dev
-    libcmocka-dev openimageio-tools"
+    libtinyobjloader-dev libcmocka-dev openimageio-tools"
 check_packages="clang-format"
 
 say() {

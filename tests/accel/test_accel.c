@@ -128,11 +128,12 @@ static void sheared_and_mirrored_boxes_are_hit_where_they_are(void **state)
     for (int trial = 0; trial < 40; trial++) {
         test_scene test;
         scene_open(&test);
-        const ppmi_transform m = {vec3_add(vec3(1, 0, 0), vec3_scale(random_vector(&rng), 0.5f)),
-                                  vec3_add(vec3(0, 2, 0), vec3_scale(random_vector(&rng), 0.5f)),
-                                  vec3_scale(vec3_add(vec3(0, 0, 1), vec3_scale(random_vector(&rng), 0.5f)),
-                                             trial % 2 ? -1.0f : 1.0f),
-                                  random_vector(&rng)};
+        const ppmi_transform m = {
+            vec3_add(vec3(1, 0, 0), vec3_scale(random_vector(&rng), 0.5f)),
+            vec3_add(vec3(0, 2, 0), vec3_scale(random_vector(&rng), 0.5f)),
+            vec3_scale(vec3_add(vec3(0, 0, 1), vec3_scale(random_vector(&rng), 0.5f)),
+                       trial % 2 ? -1.0f : 1.0f),
+            random_vector(&rng)};
         float columns[16] = {0.0f};
         vec3_store(columns, m.x);
         vec3_store(columns + 4, m.y);
@@ -164,8 +165,8 @@ static void sheared_and_mirrored_boxes_are_hit_where_they_are(void **state)
             ppmi_surface surface;
             ppmi_surface_from_hit(test.scene, &hit, &surface);
             assert_near(vec3_dot(surface.ng, normal), 1.0, 1e-5);
-            assert_near(vec3_length(vec3_sub(surface.position,
-                                             vec3_mad(origin, direction, hit.t))), 0.0, 2e-5);
+            assert_near(vec3_length(vec3_sub(surface.position, vec3_mad(origin, direction, hit.t))),
+                        0.0, 2e-5);
         }
         world_close(&world);
         scene_close(&test);
@@ -188,8 +189,7 @@ static void smooth_normals_are_those_of_the_ellipsoid(void **state)
     for (int i = 0; i < 1000; i++) {
         const ppmi_vec3 target = vec3_normalize(random_vector(&rng));
         const ppmi_vec3 p = vec3(-3 * target.x, 0.5f * target.y, target.z);
-        const ppmi_vec3 gradient =
-            vec3_normalize(vec3(p.x / 9.0f, p.y / 0.25f, p.z));
+        const ppmi_vec3 gradient = vec3_normalize(vec3(p.x / 9.0f, p.y / 0.25f, p.z));
         const ppmi_surface surface =
             world_hit(&world, vec3_mad(p, gradient, 1.0f), vec3_neg(gradient));
         /* linear interpolation of normals over a facet of pi / 64, stretched by 6 */

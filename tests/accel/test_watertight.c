@@ -37,14 +37,15 @@ static void open_mesh(closed_mesh *mesh, int shape, float scale, float offset, b
     scene_open(&mesh->test);
     ppm_scene *scene = mesh->test.scene;
     const float own = by_instance ? 1.0f : scale, factor = by_instance ? scale : 1.0f;
-    const ppm_mesh_id id =
-        shape == BOX ? shape_box(scene, 0, vec3_splat(-0.5f * own), vec3_splat(0.5f * own), 20, true)
-                     : shape_sphere(scene, 0, 0.5f * own, 40, false);
+    const ppm_mesh_id id = shape == BOX ? shape_box(scene, 0, vec3_splat(-0.5f * own),
+                                                    vec3_splat(0.5f * own), 20, true)
+                                        : shape_sphere(scene, 0, 0.5f * own, 40, false);
     mesh->center = vec3_scale(vec3(0.6f, -0.64f, 0.48f), offset * scale);
     mesh->size = scale;
     const float c = cosf(0.3f) * factor, s = sinf(0.3f) * factor;
-    const float transform[16] = {c, s, 0, 0, -s, c, 0, 0, 0, 0, factor, 0,
-                                 mesh->center.x, mesh->center.y, mesh->center.z, 1};
+    const float transform[16] = {
+        c, s, 0, 0, -s, c, 0, 0, 0, 0, factor, 0, mesh->center.x, mesh->center.y, mesh->center.z,
+        1};
     shape_place_by(scene, id, transform);
     world_open(&mesh->world, &mesh->test);
 }
@@ -136,8 +137,7 @@ static float distance_to_edge(const ppmi_surface *surface)
         p[k] = ppmi_transform_point(&surface->instance->to_world,
                                     vec3_load(surface->primitive->positions + 3 * indices[k]));
     }
-    const float doubled_area =
-        vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    const float doubled_area = vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
     const float weights[3] = {1.0f - surface->u - surface->v, surface->u, surface->v};
     float least = INFINITY;
     for (int k = 0; k < 3; k++) {
@@ -154,9 +154,8 @@ static void check_leaving_rays(closed_mesh *mesh, ppmi_rng *rng)
 {
     const uint32_t count = TEST_EFFORT(50000);
     for (uint32_t i = 0; i < count; i++) {
-        const ppmi_ray first = {.origin = mesh->center,
-                                .t_max = INFINITY,
-                                .direction = random_direction(rng)};
+        const ppmi_ray first = {
+            .origin = mesh->center, .t_max = INFINITY, .direction = random_direction(rng)};
         ppmi_hit hit;
         assert_true(ppmi_accel_intersect(mesh->world.accel, &first, &hit));
         ppmi_surface surface;
@@ -167,15 +166,15 @@ static void check_leaving_rays(closed_mesh *mesh, ppmi_rng *rng)
         const float grazing = i % 4 == 0 ? 1e-3f : i % 4 == 1 ? 0.05f : 1.0f;
         const float cosine = grazing * (0.1f + 0.9f * ppmi_rng_float(rng));
         const ppmi_vec3 inwards = ppmi_direction_at(cosine, ppmi_rng_float(rng));
-        const ppmi_ray ray = ppmi_surface_ray(
-            &surface, vec3_normalize(ppmi_frame_to_world(&frame, inwards)));
+        const ppmi_ray ray =
+            ppmi_surface_ray(&surface, vec3_normalize(ppmi_frame_to_world(&frame, inwards)));
         ppmi_hit again;
         assert_true(ppmi_accel_intersect(mesh->world.accel, &ray, &again));
         assert_int_not_equal(again.triangle, hit.triangle);
         /* and to the outside: nothing there */
         const ppmi_vec3 outwards = vec3(inwards.x, inwards.y, -inwards.z);
-        const ppmi_ray out = ppmi_surface_ray(
-            &surface, vec3_normalize(ppmi_frame_to_world(&frame, outwards)));
+        const ppmi_ray out =
+            ppmi_surface_ray(&surface, vec3_normalize(ppmi_frame_to_world(&frame, outwards)));
         assert_false(ppmi_accel_intersect(mesh->world.accel, &out, &again) &&
                      again.triangle == hit.triangle);
     }
@@ -191,9 +190,8 @@ static void rays_that_leave_a_surface_do_not_meet_it_again(void **state)
 static void check_offset(closed_mesh *mesh, ppmi_rng *rng)
 {
     for (int i = 0; i < 100; i++) {
-        const ppmi_ray ray = {.origin = mesh->center,
-                              .t_max = INFINITY,
-                              .direction = random_direction(rng)};
+        const ppmi_ray ray = {
+            .origin = mesh->center, .t_max = INFINITY, .direction = random_direction(rng)};
         ppmi_hit hit;
         assert_true(ppmi_accel_intersect(mesh->world.accel, &ray, &hit));
         ppmi_surface surface;

@@ -43,8 +43,8 @@ static ppmi_camera_view view_of(ppm_camera_id id, uint32_t width, uint32_t heigh
 static void the_picture_is_upright_and_its_first_row_is_on_top(void **state)
 {
     (void)state;
-    const ppm_camera_id id = camera_perspective(test.scene, vec3(1, 2, 3), vec3(1, 2, -7),
-                                                2.0f * atanf(0.5f));
+    const ppm_camera_id id =
+        camera_perspective(test.scene, vec3(1, 2, 3), vec3(1, 2, -7), 2.0f * atanf(0.5f));
     const ppmi_camera_view view = view_of(id, 200, 100);
     assert_direction(ppmi_camera_view_ray(&view, 100, 50).ray.direction, 0, 0, -1);
     assert_direction(ppmi_camera_view_ray(&view, 0, 0).ray.direction, -1, 0.5f, -1);
@@ -82,15 +82,14 @@ static void the_cone_is_as_wide_as_a_pixel(void **state)
 static void orthographic_rays_are_parallel(void **state)
 {
     (void)state;
-    const ppm_camera_id id =
-        camera_orthographic(test.scene, vec3(0, 5, 0), vec3(0, 0, 0), 2.0f);
+    const ppm_camera_id id = camera_orthographic(test.scene, vec3(0, 5, 0), vec3(0, 0, 0), 2.0f);
     const ppmi_camera_view view = view_of(id, 80, 80);
     const ppmi_camera_ray corner = ppmi_camera_view_ray(&view, 0, 0);
     const ppmi_camera_ray opposite = ppmi_camera_view_ray(&view, 80, 80);
     assert_direction(corner.ray.direction, 0, -1, 0);
     assert_direction(opposite.ray.direction, 0, -1, 0);
-    assert_near(vec3_length(vec3_sub(corner.ray.origin, opposite.ray.origin)),
-                4.0 * sqrt(2.0), 1e-5);
+    assert_near(vec3_length(vec3_sub(corner.ray.origin, opposite.ray.origin)), 4.0 * sqrt(2.0),
+                1e-5);
     assert_near(corner.base_width, 0.05, 1e-6);
     assert_near(corner.spread, 0.0, 0.0);
 }

@@ -53,8 +53,9 @@ static double power_into(ppmi_vec3 center, float radius, uint32_t count, uint64_
         const ppmi_vec3 off = vec3_sub(to_center, vec3_scale(emission.ray.direction, along));
         const bool is_hit = isinf(radius) || (along > 0.0f && vec3_length(off) < radius);
         if (is_hit) {
-            sum += (double)(channel == 0 ? emission.power.x
-                                         : channel == 1 ? emission.power.y : emission.power.z);
+            sum += (double)(channel == 0   ? emission.power.x
+                            : channel == 1 ? emission.power.y
+                                           : emission.power.z);
         }
     }
     return sum / count;
@@ -128,8 +129,8 @@ static void a_spot_light_sends_its_falloff(void **state)
         scene_close(&test);
         scene_open(&test);
         add_target(2.0f);
-        light_spot(test.scene, vec3(0.0f, 5.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f), vec3(3.0f, 1.0f, 0.5f),
-                   (float)cones[i][0], (float)cones[i][1]);
+        light_spot(test.scene, vec3(0.0f, 5.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f),
+                   vec3(3.0f, 1.0f, 0.5f), (float)cones[i][0], (float)cones[i][1]);
         world_open(&world, &test);
         const double flux = spot_flux(cones[i][0], cones[i][1]);
         const double fluxes[3] = {3.0 * flux, flux, 0.5 * flux};
@@ -159,8 +160,7 @@ static void a_spot_light_sends_more_where_it_is_brighter(void **state)
             u[k] = ppmi_rng_float(&rng);
         ppmi_emission emission;
         assert_true(ppmi_lights_emit(world.lights, ppmi_rng_double(&rng), u, &emission));
-        const double angle =
-            acos(fmin(1.0, (double)vec3_dot(emission.ray.direction, axis)));
+        const double angle = acos(fmin(1.0, (double)vec3_dot(emission.ray.direction, axis)));
         const int bin = (int)(angle / outer * BINS);
         observed[bin < BINS ? bin : BINS - 1] += 1.0;
     }
@@ -200,9 +200,10 @@ static void an_emitter_sends_pi_from_each_side(void **state)
         scene_open(&test);
         const ppm_material_id lamp = material_emitter(test.scene, 7.0f, 0.0f, sides == 2);
         const float stretched[16] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, -3, 0, 1, 1, 1, 1};
-        shape_place_by(test.scene,
-                       shape_quad(test.scene, lamp, vec3_splat(0.0f), vec3(1, 0, 0), vec3(0, 0.5f, 1)),
-                       stretched);
+        shape_place_by(
+            test.scene,
+            shape_quad(test.scene, lamp, vec3_splat(0.0f), vec3(1, 0, 0), vec3(0, 0.5f, 1)),
+            stretched);
         world_open(&world, &test);
         const double area = 2.0 * sqrt(0.25 + 9.0), flux = 7.0 * M_PI * area * sides;
         const double fluxes[3] = {flux, flux, flux};
@@ -273,8 +274,8 @@ static void a_constant_environment_fills_the_scene(void **state)
     world_open(&world, &test);
     const double flux = M_PI * 4.0 * 4.0 * M_PI;
     const double whole[3] = {flux, 2.0 * flux, 0.5 * flux};
-    compare("constant", vec3_splat(0.0f), 1.9999f, (double[3]){whole[0] * 0.9999, whole[1] * 0.9999,
-                                                                whole[2] * 0.9999});
+    compare("constant", vec3_splat(0.0f), 1.9999f,
+            (double[3]){whole[0] * 0.9999, whole[1] * 0.9999, whole[2] * 0.9999});
     const double part[3] = {flux / 16, flux / 8, flux / 32};
     compare("constant, small ball", vec3(0.7f, -0.7f, 0.7f), 0.5f, part);
     family_check(&family);
@@ -288,8 +289,8 @@ static void an_environment_image_sends_its_integral(void **state)
     float pixels[3 * WIDTH * HEIGHT];
     double integral[3] = {0.0};
     for (int y = 0; y < HEIGHT; y++) {
-        const double solid_angle = 2.0 * M_PI / WIDTH *
-                                   (cos(M_PI * y / HEIGHT) - cos(M_PI * (y + 1) / HEIGHT));
+        const double solid_angle =
+            2.0 * M_PI / WIDTH * (cos(M_PI * y / HEIGHT) - cos(M_PI * (y + 1) / HEIGHT));
         for (int x = 0; x < WIDTH; x++) {
             for (int k = 0; k < 3; k++) {
                 float *p = &pixels[3 * (y * WIDTH + x) + k];
@@ -311,8 +312,8 @@ static void an_environment_image_sends_its_integral(void **state)
     for (int channel = 0; channel < 3; channel++) {
         test_mean mean = {0};
         for (uint64_t seed = 1; seed <= 16; seed++) {
-            mean_add(&mean, power_into(vec3(0.7f, 0.2f, 0.3f), 0.5f, TEST_EFFORT(20000), seed,
-                                       channel));
+            mean_add(&mean,
+                     power_into(vec3(0.7f, 0.2f, 0.3f), 0.5f, TEST_EFFORT(20000), seed, channel));
         }
         family_add_mean(&family, &mean, flux[channel], 2e-3 * flux[channel], "channel %d", channel);
     }
@@ -335,7 +336,8 @@ static void several_lights_add_up(void **state)
     for (int channel = 0; channel < 3; channel++) {
         test_mean mean = {0};
         for (uint64_t seed = 1; seed <= 16; seed++) {
-            mean_add(&mean, power_into(vec3_splat(0.0f), INFINITY, TEST_EFFORT(20000), seed, channel));
+            mean_add(&mean,
+                     power_into(vec3_splat(0.0f), INFINITY, TEST_EFFORT(20000), seed, channel));
         }
         family_add_mean(&family, &mean, flux[channel], 1e-5 * flux[channel], "channel %d", channel);
     }

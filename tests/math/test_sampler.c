@@ -105,7 +105,8 @@ static void seed_set_stream_and_index_all_matter(void **state)
         for (int k = 0; k < 4; k++)
             assert_int_not_equal(base.bits[k], others[i].bits[k]);
     }
-    ppmi_rng streams[] = {ppmi_rng_start(0, PPMI_STREAM_EYE, 0), ppmi_rng_start(1, PPMI_STREAM_EYE, 0),
+    ppmi_rng streams[] = {ppmi_rng_start(0, PPMI_STREAM_EYE, 0),
+                          ppmi_rng_start(1, PPMI_STREAM_EYE, 0),
                           ppmi_rng_start(0, PPMI_STREAM_PHOTON, 0),
                           ppmi_rng_start(0, PPMI_STREAM_EYE, UINT64_C(1) << 33)};
     uint32_t numbers[4];

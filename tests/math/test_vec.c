@@ -51,8 +51,8 @@ static void frames_are_orthonormal_and_right_handed(void **state)
         assert_orthonormal(vec3_normalize(ppmi_sample_sphere(u, v)));
     }
     /* the construction divides by 1 + |z| and changes sign at z = 0 */
-    const ppmi_vec3 hard[] = {{0.0f, 0.0f, 1.0f},  {0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f},
-                              {1.0f, 0.0f, -0.0f}, {0.0f, -1.0f, 0.0f}, {1e-4f, 0.0f, -1.0f},
+    const ppmi_vec3 hard[] = {{0.0f, 0.0f, 1.0f},   {0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f},
+                              {1.0f, 0.0f, -0.0f},  {0.0f, -1.0f, 0.0f}, {1e-4f, 0.0f, -1.0f},
                               {1e-8f, 1e-8f, -1.0f}};
     for (size_t i = 0; i < sizeof hard / sizeof hard[0]; i++)
         assert_orthonormal(vec3_normalize(hard[i]));
@@ -88,8 +88,8 @@ static void cofactors_keep_normals_at_right_angles_to_the_surface(void **state)
         assert_near(vec3_dot(world, ppmi_transform_vector(&m, a)), 0.0f, 2e-5f);
         assert_near(vec3_dot(world, ppmi_transform_vector(&m, b)), 0.0f, 2e-5f);
         /* what lies in front stays in front, or goes behind where the transform mirrors */
-        assert_near(vec3_dot(world, ppmi_transform_vector(&m, n)),
-                           determinant * vec3_length2(n), 2e-4f);
+        assert_near(vec3_dot(world, ppmi_transform_vector(&m, n)), determinant * vec3_length2(n),
+                    2e-4f);
     }
     assert_in_range(mirrored, 4000, 6000);
 }

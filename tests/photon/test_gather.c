@@ -53,8 +53,7 @@ static void look_at(const ppmi_material_point *material)
 
 static ppmi_photon photon_at(float x, float y, float z)
 {
-    return (ppmi_photon){
-        .position = {x, y, z}, .wi = up, .power = {1.0f, 2.0f, 3.0f}, .ng = up};
+    return (ppmi_photon){.position = {x, y, z}, .wi = up, .power = {1.0f, 2.0f, 3.0f}, .ng = up};
 }
 
 static ppmi_gathered gather(const ppmi_photon *photons, size_t count, float radius)

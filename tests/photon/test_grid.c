@@ -179,14 +179,13 @@ static void photons_keep_what_they_carry(void **state)
     (void)state;
     fill(&clouds[0], MOST);
     ppmi_photon_grid grid = {0};
-    assert_int_equal(ppmi_photon_grid_build(context, &grid, photons, MOST, 0.1f, 3),
-                     PPM_STATUS_OK);
+    assert_int_equal(ppmi_photon_grid_build(context, &grid, photons, MOST, 0.1f, 3), PPM_STATUS_OK);
     uint8_t seen[MOST] = {0};
     for (uint32_t i = 0; i < MOST; i++) {
         const uint32_t from = (uint32_t)grid.payloads[i].power.x;
         assert_int_equal(seen[from]++, 0);
-        assert_true(grid.x[i] == photons[from].position.x && grid.y[i] == photons[from].position.y &&
-                    grid.z[i] == photons[from].position.z);
+        assert_true(grid.x[i] == photons[from].position.x &&
+                    grid.y[i] == photons[from].position.y && grid.z[i] == photons[from].position.z);
     }
     ppmi_photon_grid_deinit(context, &grid);
 }
@@ -202,8 +201,9 @@ static void the_order_does_not_depend_on_the_threads(void **state)
                          PPM_STATUS_OK);
         for (int t = 1; t < 4; t++) {
             ppmi_photon_grid grid = {0};
-            assert_int_equal(ppmi_photon_grid_build(context, &grid, photons, MOST, 0.01f, threads[t]),
-                             PPM_STATUS_OK);
+            assert_int_equal(
+                ppmi_photon_grid_build(context, &grid, photons, MOST, 0.01f, threads[t]),
+                PPM_STATUS_OK);
             assert_memory_equal(grid.x, first.x, MOST * sizeof *grid.x);
             assert_memory_equal(grid.payloads, first.payloads, MOST * sizeof *grid.payloads);
             for (int i = 0; i < 50; i++) {

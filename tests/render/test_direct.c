@@ -81,7 +81,8 @@ static double mean_rectangle_irradiance(ppmi_vec3 low, ppmi_vec3 high, double x,
     double sum = 0.0;
     const int steps = 20;
     for (int i = 0; i < steps * steps; i++) {
-        sum += rectangle_irradiance(low, high, x + half_width * (2.0 * (i % steps + 0.5) / steps - 1.0),
+        sum += rectangle_irradiance(low, high,
+                                    x + half_width * (2.0 * (i % steps + 0.5) / steps - 1.0),
                                     z + half_width * (2.0 * (i / steps + 0.5) / steps - 1.0));
     }
     return sum / (steps * steps);
@@ -167,16 +168,16 @@ static void leaning_shading_normals_agree_between_photons_and_light_samples(void
                                         .material = material_lambert(test.scene, 0.8f)};
     shape_place(test.scene, shape_mesh(test.scene, &ceiling));
     light_point(test.scene, vec3(0.5f, 1, 0.3f), vec3_splat(8.0f));
-    const ppm_camera_id up = camera_orthographic(test.scene, vec3(0.2f, 1, 0.1f),
-                                                 vec3(0.2f, 2, 0.1f), 0.4f);
+    const ppm_camera_id up =
+        camera_orthographic(test.scene, vec3(0.2f, 1, 0.1f), vec3(0.2f, 2, 0.1f), 0.4f);
     test_mean means[2];
     for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PATH; i++) {
         ppm_render_options options = render_options(i, 8, 20000);
         options.camera = up;
         options.radius_m = 0.1f;
         options.max_depth = 4;
-        means[i - 1] = render_green(test.scene, &options, i == PPM_INTEGRATOR_PATH ? 200 : 8,
-                                    SEEDS);
+        means[i - 1] =
+            render_green(test.scene, &options, i == PPM_INTEGRATOR_PATH ? 200 : 8, SEEDS);
         mean_check_power(&means[i - 1], 0.005);
     }
     const double error = hypot(mean_error(&means[0]), mean_error(&means[1]));

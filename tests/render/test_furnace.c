@@ -108,9 +108,9 @@ static void glass_in_the_open_is_not_seen(void **state)
         desc.roughness = 0.0f;
         desc.transmission_kind = kind == 2 ? PPM_TRANSMISSION_THIN : PPM_TRANSMISSION_SOLID;
         const ppm_material_id glass = material_add(test.scene, &desc);
-        shape_place(test.scene,
-                    kind == 1 ? shape_box(test.scene, glass, vec3_splat(-1), vec3_splat(1), 1, false)
-                              : shape_sphere(test.scene, glass, 1.0f, 64, true));
+        shape_place(test.scene, kind == 1 ? shape_box(test.scene, glass, vec3_splat(-1),
+                                                      vec3_splat(1), 1, false)
+                                          : shape_sphere(test.scene, glass, 1.0f, 64, true));
         light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
         camera_orthographic(test.scene, vec3(1, 2, 5), vec3(0, 0, 0), 1.5f);
         ppm_render_options options = render_options(PPM_INTEGRATOR_PATH, 16, 1000);

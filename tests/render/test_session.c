@@ -101,8 +101,8 @@ static void a_scene_without_camera_and_light_gets_both(void **state)
     (void)state;
     test_scene bare;
     scene_open(&bare);
-    shape_place(bare.scene, shape_sphere(bare.scene, material_lambert(bare.scene, 1.0f), 1.0f, 32,
-                                         true));
+    shape_place(bare.scene,
+                shape_sphere(bare.scene, material_lambert(bare.scene, 1.0f), 1.0f, 32, true));
     const ppm_render_options options = render_options(PPM_INTEGRATOR_PATH, 8, 0);
     float *rgba = render_picture(bare.scene, &options, 16);
     assert_near(rgba[4 * (4 * 8 + 4)], 1.0, 0.05); /* a white ball under 1 nit, by eye */

@@ -168,7 +168,8 @@ static void the_framing_camera_sees_all_corners(void **state)
 static void the_framing_camera_looks_from_right_front_and_above(void **state)
 {
     (void)state;
-    shape_place(test.scene, shape_box(test.scene, 0, vec3_splat(-1.0f), vec3_splat(1.0f), 1, false));
+    shape_place(test.scene,
+                shape_box(test.scene, 0, vec3_splat(-1.0f), vec3_splat(1.0f), 1, false));
     ppm_camera_id id;
     assert_int_equal(ppm_scene_add_framing_camera(test.scene, 1.0f, &id), PPM_STATUS_OK);
     const ppmi_vec3 origin = test.scene->cameras[id - 1].origin;

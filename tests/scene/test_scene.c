@@ -42,9 +42,9 @@ static void factors_out_of_range_are_refused(void **state)
     ppm_material_desc_init(&desc);
     const float bad[] = {-0.1f, 1.1f, NAN, INFINITY};
     float *const unit_factors[] = {
-        &desc.base_color[0], &desc.base_color[1], &desc.base_color[2], &desc.base_color[3],
-        &desc.metallic,      &desc.roughness,     &desc.specular,      &desc.transmission,
-        &desc.attenuation_color[0]};
+        &desc.base_color[0], &desc.base_color[1], &desc.base_color[2],
+        &desc.base_color[3], &desc.metallic,      &desc.roughness,
+        &desc.specular,      &desc.transmission,  &desc.attenuation_color[0]};
     for (size_t f = 0; f < sizeof unit_factors / sizeof unit_factors[0]; f++) {
         for (size_t b = 0; b < 4; b++) {
             *unit_factors[f] = bad[b];
@@ -88,10 +88,10 @@ static void textures_must_exist(void **state)
 {
     (void)state;
     ppm_material_desc_init(&desc);
-    ppm_texture *const slots[] = {
-        &desc.base_color_texture, &desc.metallic_roughness_texture, &desc.normal_texture,
-        &desc.emission_texture,   &desc.specular_texture,           &desc.specular_color_texture,
-        &desc.transmission_texture};
+    ppm_texture *const slots[] = {&desc.base_color_texture,  &desc.metallic_roughness_texture,
+                                  &desc.normal_texture,      &desc.emission_texture,
+                                  &desc.specular_texture,    &desc.specular_color_texture,
+                                  &desc.transmission_texture};
     const float pixel[3] = {1.0f, 1.0f, 1.0f};
     const ppm_image_id image = image_rgb(test.scene, 1, 1, pixel);
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {
@@ -148,8 +148,8 @@ static void a_frozen_scene_takes_nothing(void **state)
 {
     (void)state;
     const ppm_material_id grey = material_lambert(test.scene, 0.5f);
-    const ppm_mesh_id mesh = shape_box(test.scene, grey, vec3_splat(0.0f), vec3_splat(1.0f), 1,
-                                       false);
+    const ppm_mesh_id mesh =
+        shape_box(test.scene, grey, vec3_splat(0.0f), vec3_splat(1.0f), 1, false);
     shape_place(test.scene, mesh);
     test.scene->is_frozen = true;
     uint32_t id = 77;
@@ -176,10 +176,10 @@ static void facts_count_what_there_is(void **state)
     (void)state;
     const ppm_material_id lamp = material_emitter(test.scene, 1.0f, 0.0f, false);
     const ppm_material_id grey = material_lambert(test.scene, 0.5f);
-    const ppm_mesh_id quad = shape_quad(test.scene, lamp, vec3_splat(0.0f), vec3(1, 0, 0),
-                                        vec3(0, 1, 0));
-    const ppm_mesh_id box = shape_box(test.scene, grey, vec3_splat(-1.0f), vec3_splat(0.0f), 2,
-                                      false);
+    const ppm_mesh_id quad =
+        shape_quad(test.scene, lamp, vec3_splat(0.0f), vec3(1, 0, 0), vec3(0, 1, 0));
+    const ppm_mesh_id box =
+        shape_box(test.scene, grey, vec3_splat(-1.0f), vec3_splat(0.0f), 2, false);
     shape_place(test.scene, quad);
     shape_place_at(test.scene, quad, vec3(0.0f, 5.0f, 0.0f));
     shape_place(test.scene, box);

@@ -30,19 +30,17 @@ static ppm_status add_triangles(ppm_scene *scene, ppm_material_id material, ppm_
     static const float uvs[8] = {0, 0, 1, 0, 0, 1, 1, 1};
     static const float colors[16] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
     static const uint32_t indices[6] = {0, 1, 2, 1, 3, 2};
-    const ppm_primitive_desc primitives[2] = {{.vertex_count = 4,
-                                               .triangle_count = 2,
-                                               .positions = positions,
-                                               .normals = normals,
-                                               .tangents = tangents,
-                                               .uvs = {uvs, NULL, uvs},
-                                               .colors = colors,
-                                               .indices = indices,
-                                               .material = material},
-                                              {.vertex_count = 4,
-                                               .triangle_count = 2,
-                                               .positions = positions,
-                                               .indices = indices}};
+    const ppm_primitive_desc primitives[2] = {
+        {.vertex_count = 4,
+         .triangle_count = 2,
+         .positions = positions,
+         .normals = normals,
+         .tangents = tangents,
+         .uvs = {uvs, NULL, uvs},
+         .colors = colors,
+         .indices = indices,
+         .material = material},
+        {.vertex_count = 4, .triangle_count = 2, .positions = positions, .indices = indices}};
     const ppm_mesh_desc desc = {
         .size = sizeof desc, .name = "mesh", .primitive_count = 2, .primitives = primitives};
     return ppm_scene_add_mesh(scene, &desc, out_id);
@@ -66,8 +64,8 @@ static ppm_status fill(ppm_scene *scene)
                                   .width = 2,
                                   .height = 2,
                                   .channels = 1};
-    ppm_instance_desc instance = {
-        .size = sizeof instance, .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    ppm_instance_desc instance = {.size = sizeof instance,
+                                  .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     const ppm_light_desc light = {.size = sizeof light,
                                   .intensity = {1, 1, 1},
                                   .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}};

@@ -24,8 +24,8 @@ static const struct {
     [KIND_GLASS_INSIDE] = {"glass from inside", 0, 1, 1, 1.5f, {1, 1, 1}, false, true},
     [KIND_THIN_GLASS] = {"thin glass", 0, 1, 1, 1.5f, {1.0f, 0.7f, 0.4f}, true, false},
     [KIND_HALF_GLASS] = {"half glass", 0.2f, 0.5f, 1, 1.33f, {0.9f, 0.7f, 0.4f}, false, false},
-    [KIND_HALF_GLASS_INSIDE] = {"half glass from inside", 0, 0.5f, 1, 1.33f, {0.9f, 0.7f, 0.4f},
-                                false, true},
+    [KIND_HALF_GLASS_INSIDE] =
+        {"half glass from inside", 0, 0.5f, 1, 1.33f, {0.9f, 0.7f, 0.4f}, false, true},
 };
 
 const ppmi_albedo_table *bsdf_albedo(void)
@@ -40,7 +40,8 @@ const ppmi_albedo_table *bsdf_albedo(void)
 void bsdf_make_case(int kind, float roughness, float cosine, bsdf_case *item, ppmi_bsdf *bsdf)
 {
     const ppmi_vec3 up = vec3(0.0f, 0.0f, 1.0f);
-    *item = (bsdf_case){.roughness = roughness, .cosine = cosine, .from_back = kinds[kind].from_back};
+    *item =
+        (bsdf_case){.roughness = roughness, .cosine = cosine, .from_back = kinds[kind].from_back};
     snprintf(item->name, sizeof item->name, "%s, roughness %g, cosine %g", kinds[kind].name,
              (double)roughness, (double)cosine);
     item->point = (ppmi_material_point){.base_color = kinds[kind].color,

@@ -77,8 +77,7 @@ static bins make_bins(const ppmi_bsdf *bsdf)
     const float eta = bsdf->is_thin || bsdf->eta == 0.0f ? 1.0f : bsdf->eta;
     /* in total reflection the lobe below clings to the surface */
     const float sine2 = ppmi_min((1.0f - wo.z * wo.z) / (eta * eta), 1.0f);
-    const ppmi_vec3 below =
-        vec3_normalize(vec3(-wo.x / eta, -wo.y / eta, -sqrtf(1.0f - sine2)));
+    const ppmi_vec3 below = vec3_normalize(vec3(-wo.x / eta, -wo.y / eta, -sqrtf(1.0f - sine2)));
     const ppmi_vec3 above = vec3(-wo.x, -wo.y, wo.z);
     return (bins){{ppmi_frame_from_normal(ppmi_frame_to_world(&bsdf->frame, vec3_normalize(above))),
                    ppmi_frame_from_normal(ppmi_frame_to_world(&bsdf->frame, below))},

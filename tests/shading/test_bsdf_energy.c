@@ -138,8 +138,8 @@ static void lambert_returns_its_colour(void **state)
         assert_near(sample.weight.x, 0.8, 1e-5);
         assert_near(sample.weight.y, 0.5, 1e-5);
         assert_near(sample.weight.z, 0.2, 1e-5);
-        const ppmi_vec3 f = ppmi_bsdf_eval(&bsdf, bsdf_albedo(), sample.wi, PPMI_LOBE_ALL,
-                                           PPMI_TRANSPORT_RADIANCE);
+        const ppmi_vec3 f =
+            ppmi_bsdf_eval(&bsdf, bsdf_albedo(), sample.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
         assert_near(f.x, 0.8 / M_PI, 1e-6);
     }
 }
@@ -179,8 +179,8 @@ static void smooth_glass_splits_light_as_fresnel_says(void **state)
                 assert_true(bsdf_draw(&bsdf, &rng, PPMI_TRANSPORT_RADIANCE, &s));
                 assert_true(s.is_delta);
                 mean_add(&reflected, s.is_transmission ? 0.0 : 1.0);
-                const double scale = s.is_transmission && !item.point.is_thin ? 1.0 / (eta * eta)
-                                                                              : 1.0;
+                const double scale =
+                    s.is_transmission && !item.point.is_thin ? 1.0 / (eta * eta) : 1.0;
                 const double tint = s.is_transmission ? (double)item.point.base_color.y : 1.0;
                 assert_near(s.weight.y, scale * tint, 1e-5);
                 if (!s.is_transmission) continue;

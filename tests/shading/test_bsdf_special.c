@@ -71,8 +71,8 @@ static void opaque_surfaces_look_the_same_from_behind(void **state)
     const ppmi_vec3 wi = vec3_normalize(vec3(-0.5f, 0.1f, 0.6f));
     const ppmi_vec3 f =
         ppmi_bsdf_eval(&front, bsdf_albedo(), wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
-    const ppmi_vec3 g = ppmi_bsdf_eval(&back, bsdf_albedo(), vec3(wi.x, wi.y, -wi.z),
-                                       PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
+    const ppmi_vec3 g = ppmi_bsdf_eval(&back, bsdf_albedo(), vec3(wi.x, wi.y, -wi.z), PPMI_LOBE_ALL,
+                                       PPMI_TRANSPORT_RADIANCE);
     assert_near(f.x, g.x, 1e-5f * f.x);
 }
 
@@ -153,7 +153,6 @@ static void without_specular_a_surface_is_lambert(void **state)
         assert_near(f.x, 0.8 / M_PI, 1e-6);
     }
 }
-
 
 static void only_wide_lobes_gather(void **state)
 {

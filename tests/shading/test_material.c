@@ -43,7 +43,8 @@ static ppm_image_id one_texel(float r, float g, float b, float a)
 }
 
 /* A unit quad in the xy plane, facing +z, v running down; optionally with vertex colours. */
-static void place_quad(const ppm_material_desc *desc, const float *colors, const float transform[16])
+static void place_quad(const ppm_material_desc *desc, const float *colors,
+                       const float transform[16])
 {
     static const float positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float uvs[8] = {0, 1, 1, 1, 1, 0, 0, 0};

@@ -56,9 +56,9 @@ static void nearest_takes_the_texel_that_is_hit(void **state)
                            .filter = PPM_FILTER_NEAREST};
     static const struct {
         float u, repeat, clamp, mirror;
-    } cases[] = {{0.1f, 0, 0, 0},    {0.3f, 1, 1, 1},   {0.99f, 3, 3, 3},  {1.1f, 0, 3, 3},
-                 {1.3f, 1, 3, 2},    {1.9f, 3, 3, 0},   {2.1f, 0, 3, 0},   {-0.1f, 3, 0, 0},
-                 {-0.3f, 2, 0, 1},   {-1.1f, 3, 0, 3},  {-7.9f, 0, 0, 0},  {100.3f, 1, 3, 1},
+    } cases[] = {{0.1f, 0, 0, 0},   {0.3f, 1, 1, 1},  {0.99f, 3, 3, 3}, {1.1f, 0, 3, 3},
+                 {1.3f, 1, 3, 2},   {1.9f, 3, 3, 0},  {2.1f, 0, 3, 0},  {-0.1f, 3, 0, 0},
+                 {-0.3f, 2, 0, 1},  {-1.1f, 3, 0, 3}, {-7.9f, 0, 0, 0}, {100.3f, 1, 3, 1},
                  {-101.3f, 2, 0, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         texture.wrap_u = PPM_WRAP_REPEAT;
@@ -74,9 +74,9 @@ static void u_runs_right_and_v_runs_down(void **state)
 {
     (void)state;
     const float pixels[6] = {1, 2, 3, 4, 5, 6}; /* two rows of three */
-    const ppm_texture texture = {
-        .image = add_image(pixels, PPM_PIXELS_F32, PPM_IMAGE_DATA, 3, 2, 1),
-        .filter = PPM_FILTER_NEAREST};
+    const ppm_texture texture = {.image =
+                                     add_image(pixels, PPM_PIXELS_F32, PPM_IMAGE_DATA, 3, 2, 1),
+                                 .filter = PPM_FILTER_NEAREST};
     assert_near(look_up(&texture, 0.1f, 0.1f).r, 1.0, 0.0);
     assert_near(look_up(&texture, 0.9f, 0.1f).r, 3.0, 0.0);
     assert_near(look_up(&texture, 0.1f, 0.9f).r, 4.0, 0.0);

@@ -104,8 +104,7 @@ static ppm_camera_id add_camera(ppm_scene *scene, ppm_camera_desc desc, ppmi_vec
     return id;
 }
 
-ppm_camera_id camera_perspective(ppm_scene *scene, ppmi_vec3 eye, ppmi_vec3 target,
-                                 float y_fov_rad)
+ppm_camera_id camera_perspective(ppm_scene *scene, ppmi_vec3 eye, ppmi_vec3 target, float y_fov_rad)
 {
     const ppm_camera_desc desc = {.kind = PPM_CAMERA_PERSPECTIVE, .y_fov_rad = y_fov_rad};
     return add_camera(scene, desc, eye, target);
@@ -137,8 +136,8 @@ ppm_light_id light_point(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 intensi
     return add_light(scene, desc, position, vec3(0.0f, 0.0f, -1.0f));
 }
 
-ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target,
-                        ppmi_vec3 intensity, float inner_rad, float outer_rad)
+ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target, ppmi_vec3 intensity,
+                        float inner_rad, float outer_rad)
 {
     ppm_light_desc desc = {
         .kind = PPM_LIGHT_SPOT, .inner_cone_rad = inner_rad, .outer_cone_rad = outer_rad};
@@ -153,11 +152,9 @@ ppm_light_id light_directional(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 
     return add_light(scene, desc, vec3(0.0f, 0.0f, 0.0f), direction);
 }
 
-void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image,
-                       float rotation_rad)
+void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image, float rotation_rad)
 {
-    ppm_environment_desc desc = {
-        .size = sizeof desc, .image = image, .rotation_rad = rotation_rad};
+    ppm_environment_desc desc = {.size = sizeof desc, .image = image, .rotation_rad = rotation_rad};
     vec3_store(desc.radiance, radiance);
     assert_int_equal(ppm_scene_set_environment(scene, &desc), PPM_STATUS_OK);
 }

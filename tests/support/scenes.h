@@ -33,8 +33,8 @@ ppm_camera_id camera_orthographic(ppm_scene *scene, ppmi_vec3 eye, ppmi_vec3 tar
                                   float half_width_m);
 
 ppm_light_id light_point(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 intensity);
-ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target,
-                        ppmi_vec3 intensity, float inner_rad, float outer_rad);
+ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target, ppmi_vec3 intensity,
+                        float inner_rad, float outer_rad);
 ppm_light_id light_directional(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illuminance);
 void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image,
                        float rotation_rad);

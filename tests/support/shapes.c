@@ -105,8 +105,9 @@ ppm_mesh_id shape_sphere(ppm_scene *scene, ppm_material_id material, float radiu
         for (uint32_t c = 0; c < columns; c++) {
             const double phi = 2.0 * M_PI * c / columns;
             const bool is_pole = r == 0 || r == rings;
-            const ppmi_vec3 n = vec3(is_pole ? 0.0f : (float)(sin(theta) * cos(phi)),
-                                     (float)cos(theta), is_pole ? 0.0f : (float)(sin(theta) * sin(phi)));
+            const ppmi_vec3 n =
+                vec3(is_pole ? 0.0f : (float)(sin(theta) * cos(phi)), (float)cos(theta),
+                     is_pole ? 0.0f : (float)(sin(theta) * sin(phi)));
             vec3_store(normals + 3 * (r * columns + c), n);
             vec3_store(positions + 3 * (r * columns + c), vec3_scale(n, radius));
             if (r == rings) continue;

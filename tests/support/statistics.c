@@ -81,8 +81,7 @@ static double beta_regularised(double a, double b, double x)
 {
     if (!(x > 0.0)) return 0.0;
     if (x >= 1.0) return 1.0;
-    const double front =
-        exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log(1.0 - x));
+    const double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log(1.0 - x));
     if (x < (a + 1.0) / (a + b + 2.0)) return front * beta_fraction(a, b, x) / a;
     return 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
 }
@@ -178,8 +177,8 @@ static void note_mean(test_family *family, double p, const test_mean *mean, doub
                expected);
 }
 
-void family_add_mean(test_family *family, const test_mean *mean, double expected,
-                     double systematic, const char *format, ...)
+void family_add_mean(test_family *family, const test_mean *mean, double expected, double systematic,
+                     const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -188,8 +187,8 @@ void family_add_mean(test_family *family, const test_mean *mean, double expected
     va_end(arguments);
 }
 
-void family_add_at_most(test_family *family, const test_mean *mean, double most,
-                        const char *format, ...)
+void family_add_at_most(test_family *family, const test_mean *mean, double most, const char *format,
+                        ...)
 {
     va_list arguments;
     va_start(arguments, format);

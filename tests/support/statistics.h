@@ -17,12 +17,12 @@
 #endif
 
 /* A number of samples, fewer where the build is slow. */
-#define TEST_EFFORT(n) ((uint32_t)((uint64_t)(n) * TEST_EFFORT_PERCENT / 100 + 1))
+#define TEST_EFFORT(n) ((uint32_t)((uint64_t)(n)*TEST_EFFORT_PERCENT / 100 + 1))
 
 /* ---- p-values -------------------------------------------------------------------------------- */
 
-double p_normal(double z);                    /* two-sided */
-double p_student(double t, double freedom);   /* two-sided */
+double p_normal(double z);                      /* two-sided */
+double p_student(double t, double freedom);     /* two-sided */
 double p_chi_squared(double x, double freedom); /* upper tail */
 
 /* Chi-squared of observed counts against expected ones (not below 0; the totals need not agree: a
@@ -52,13 +52,12 @@ void family_add(test_family *family, double p, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* The mean against what it should be, up to systematic, a bound of known systematic errors. */
-void family_add_mean(test_family *family, const test_mean *mean, double expected,
-                     double systematic, const char *format, ...)
-    __attribute__((format(printf, 5, 6)));
+void family_add_mean(test_family *family, const test_mean *mean, double expected, double systematic,
+                     const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 /* As before, but only a mean above most is held against it. */
-void family_add_at_most(test_family *family, const test_mean *mean, double most,
-                        const char *format, ...) __attribute__((format(printf, 4, 5)));
+void family_add_at_most(test_family *family, const test_mean *mean, double most, const char *format,
+                        ...) __attribute__((format(printf, 4, 5)));
 
 /* Fails the running test when the least p-value is too small for the family. */
 void family_check(const test_family *family);

@@ -1,0 +1,158 @@
+/* Steps of paths: visibility, surfaces with alpha, attenuation, the walker's numbers. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/near.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+
+static test_scene test;
+static test_world world;
+
+static int open_scene(void **state)
+{
+    (void)state;
+    scene_open(&test);
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    (void)state;
+    world_close(&world);
+    scene_close(&test);
+    return 0;
+}
+
+static void add_veil(float z, float alpha, uint32_t double_sided)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.alpha_mode = alpha < 1.0f ? PPM_ALPHA_BLEND : PPM_ALPHA_OPAQUE;
+    desc.base_color[3] = alpha;
+    desc.double_sided = double_sided;
+    add_quad(test.scene, material_add(test.scene, &desc), vec3(-1, -1, z), vec3(2, 0, 0),
+             vec3(0, 2, 0));
+}
+
+static ppmi_walker walker_of(uint64_t index)
+{
+    ppmi_walker walker = {.world = &world.world};
+    ppmi_walker_start(&walker, ppmi_rng_start(1, PPMI_STREAM_EYE, index), 1, (uint32_t)index, 0, 2);
+    return walker;
+}
+
+static const ppmi_ray ahead = {
+    .origin = {0.3f, 0.2f, 0.0f}, .t_max = INFINITY, .direction = {0.0f, 0.0f, -1.0f}};
+
+static void visibility_is_the_product_of_what_veils_leave(void **state)
+{
+    (void)state;
+    add_veil(-1.0f, 0.5f, 1);
+    add_veil(-2.0f, 0.2f, 1);
+    add_veil(-5.0f, 1.0f, 1);
+    world_open(&world, &test);
+    ppmi_walker walker = walker_of(0);
+    const float ends[] = {0.5f, 1.5f, 4.5f, 6.0f, INFINITY};
+    const double expected[] = {1.0, 0.5, 0.4, 0.0, 0.0};
+    for (int i = 0; i < 5; i++) {
+        ppmi_ray ray = ahead;
+        ray.t_max = ends[i];
+        assert_near(ppmi_walk_visibility(&walker, ray), expected[i], 1e-6);
+    }
+}
+
+static void paths_stop_at_a_veil_as_often_as_it_is_opaque(void **state)
+{
+    (void)state;
+    add_veil(-1.0f, 0.5f, 1);
+    add_veil(-2.0f, 0.2f, 1);
+    add_veil(-5.0f, 1.0f, 1);
+    world_open(&world, &test);
+    const uint32_t count = TEST_EFFORT(50000);
+    double observed[3] = {0.0};
+    const double expected[3] = {0.5 * count, 0.1 * count, 0.4 * count};
+    for (uint32_t i = 0; i < count; i++) {
+        ppmi_walker walker = walker_of(i);
+        ppmi_vertex vertex;
+        assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_OTHER, &vertex));
+        observed[vertex.hit.instance] += 1.0;
+        const double depth = vertex.hit.instance == 2 ? 5.0 : vertex.hit.instance + 1.0;
+        assert_near(vertex.distance, depth, 1e-4); /* along all segments */
+    }
+    test_family family = {0};
+    family_add(&family, p_counts(observed, expected, 3), "veils");
+    family_check(&family);
+}
+
+static void only_camera_rays_see_through_backs(void **state)
+{
+    (void)state;
+    add_veil(-1.0f, 1.0f, 0); /* faces +z */
+    world_open(&world, &test);
+    const ppmi_ray from_behind = {
+        .origin = {0.3f, 0.2f, -2.0f}, .t_max = INFINITY, .direction = {0.0f, 0.0f, 1.0f}};
+    ppmi_walker walker = walker_of(0);
+    ppmi_vertex vertex;
+    assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_CAMERA, &vertex));
+    assert_false(ppmi_walk_to_surface(&walker, from_behind, PPMI_RAY_CAMERA, &vertex));
+    assert_true(ppmi_walk_to_surface(&walker, from_behind, PPMI_RAY_OTHER, &vertex));
+    assert_near(ppmi_walk_visibility(&walker, from_behind), 0.0, 0.0);
+}
+
+static void a_solid_attenuates_on_the_way_out_only(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.transmission = 1.0f;
+    desc.attenuation_color[0] = 0.5f;
+    desc.attenuation_distance_m = 2.0f;
+    shape_place(test.scene, shape_box(test.scene, material_add(test.scene, &desc), vec3(-1, -1, -5),
+                                      vec3(1, 1, -1), 1, false));
+    world_open(&world, &test);
+    ppmi_walker walker = walker_of(0);
+    ppmi_vertex vertex;
+    assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_OTHER, &vertex));
+    assert_near(vertex.transmittance.x, 1.0, 0.0);
+    const ppmi_ray inside = ppmi_surface_ray(&vertex.surface, ahead.direction);
+    assert_true(ppmi_walk_to_surface(&walker, inside, PPMI_RAY_OTHER, &vertex));
+    assert_near(vertex.transmittance.x, 0.25, 1e-5);
+    assert_near(vertex.transmittance.y, 1.0, 0.0);
+}
+
+/* Paths of one index draw the same numbers; the stratified ones come first. */
+static void a_walker_draws_the_same_numbers_again(void **state)
+{
+    (void)state;
+    add_veil(-1.0f, 1.0f, 1);
+    world_open(&world, &test);
+    ppmi_walker a = walker_of(7), b = walker_of(7), c = walker_of(8);
+    const ppmi_sample4 first = ppmi_sobol4(7, 0, 1);
+    int differences = 0;
+    for (int i = 0; i < 20; i++) {
+        const uint32_t x = ppmi_walker_u32(&a);
+        assert_int_equal(x, ppmi_walker_u32(&b));
+        differences += x != ppmi_walker_u32(&c);
+        if (i < 4) assert_int_equal(x, first.bits[i]);
+    }
+    assert_true(differences >= 19);
+}
+
+int main(void)
+{
+#define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
+    const struct CMUnitTest tests[] = {
+        WITH_SCENE(visibility_is_the_product_of_what_veils_leave),
+        WITH_SCENE(paths_stop_at_a_veil_as_often_as_it_is_opaque),
+        WITH_SCENE(only_camera_rays_see_through_backs),
+        WITH_SCENE(a_solid_attenuates_on_the_way_out_only),
+        WITH_SCENE(a_walker_draws_the_same_numbers_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
