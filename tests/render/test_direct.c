@@ -181,7 +181,8 @@ static void leaning_shading_normals_agree_between_photons_and_light_samples(void
         mean_check_power(&means[i - 1], 0.005);
     }
     const double error = hypot(mean_error(&means[0]), mean_error(&means[1]));
-    family_add(&family, p_student((means[0].mean - means[1].mean) / error, SEEDS - 1.0),
+    family_add(&family,
+               p_student((means[0].mean - means[1].mean) / error, (double)means[0].count - 1.0),
                "photons %g, paths %g +- %g", means[0].mean, means[1].mean, error);
     family_check(&family);
 }

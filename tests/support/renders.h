@@ -5,13 +5,15 @@
 #include "ppm/render.h"
 #include "support/statistics.h"
 
-/* The options that most tests want: a small square picture, two threads. */
+/* The options that most tests want: a small square picture, one thread (short passes gain nothing
+ * by more). */
 ppm_render_options render_options(int32_t integrator, uint32_t width, uint64_t photons_per_pass);
 
 /* A finished picture: 4 * width * height floats, to be freed by free(). */
 float *render_picture(ppm_scene *scene, const ppm_render_options *options, uint32_t passes);
 
-/* Adds to mean one value a seed (seed_count seeds, from 1): what measure makes of the picture. */
+/* The mean of one value a seed (seed_count seeds, from 1; fewer where the build is slow): what
+ * measure makes of the picture. */
 typedef double (*render_measure)(const float *rgba, const ppm_render_options *options, void *user);
 test_mean render_means(ppm_scene *scene, const ppm_render_options *options, uint32_t passes,
                        uint32_t seed_count, render_measure measure, void *user);
