@@ -147,7 +147,7 @@ static void print_row(FILE *stream, const option_row *row)
 
 void cli_options_print_help(FILE *stream)
 {
-    fputs("Usage: ppm-render [options] INPUT.{gltf,glb}\n"
+    fputs("Usage: ppm-render [options] INPUT.{gltf,glb,obj}\n"
           "Renders a glTF scene by progressive photon mapping.\n",
           stream);
     for (size_t i = 0; i < ROW_COUNT; i++) {
