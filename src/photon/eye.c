@@ -63,7 +63,8 @@ static void add_bsdf_sampled_light(ppmi_walker *walker, eye_state *state, const 
     ppmi_vertex next;
     const ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample.wi);
     if (ppmi_walk_to_surface(walker, ray, PPMI_RAY_OTHER, &next)) {
-        add(state, throughput, ppmi_walk_emission(walker, &next, sample.wi, &origin));
+        add(state, vec3_mul(throughput, next.transmittance),
+            ppmi_walk_emission(walker, &next, sample.wi, &origin));
     } else {
         add(state, throughput, ppmi_walk_environment(walker, sample.wi, &origin));
     }
