@@ -28,8 +28,9 @@ PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
 /* Writes the picture so far of a session; the ending of path says the kind:
  *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply.
- *                      Header: chromaticities, oiio:ColorSpace, PixelAspectRatio, software,
- *                      ppm:version, ppm:options, ppm:passes, ppm:photons, ppm:command, ...
+ *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
+ *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
+ *                      ppm:camera, ppm:command
  *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color.
  * color may be NULL for .exr. options may be NULL.
  * Threads: not while another thread is in ppm_render_advance.
