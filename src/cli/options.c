@@ -81,7 +81,7 @@ static const option_row rows[] = {
     {"photons", 'p', VALUE_COUNT, FIELD(photons), .least = 1, .most = UINT64_C(1) << 40,
      .argument = "N",
      .help = "photons per pass; k and M stand for 1024 and 1024^2\n"
-             "(default: 256k, or the number of pixels if that is more)"},
+             "(default: the number of pixels, within 256k .. 4M)"},
     {"radius", 0, VALUE_REAL, FIELD(radius_m), .low = 1e-9, .high = 1e9, .argument = "R",
      .help = "first gather radius in metres (default: a few pixels wide)"},
     {"alpha", 0, VALUE_REAL, FIELD(alpha), .low = 1e-6, .high = 1.0, .argument = "A",
@@ -148,7 +148,7 @@ static void print_row(FILE *stream, const option_row *row)
 void cli_options_print_help(FILE *stream)
 {
     fputs("Usage: ppm-render [options] INPUT.{gltf,glb,obj}\n"
-          "Renders a glTF scene by progressive photon mapping.\n",
+          "Renders a glTF or OBJ scene by progressive photon mapping.\n",
           stream);
     for (size_t i = 0; i < ROW_COUNT; i++) {
         if (rows[i].group) fprintf(stream, "\n%s:\n", rows[i].group);

@@ -218,6 +218,45 @@ static void bounds_of_turned_and_mirrored_instances_are_tight(void **state)
     assert_near(high.z, 5.0, facets);
 }
 
+/* A box, a lamp and a camera around a place. */
+static void build_around(ppmi_vec3 place)
+{
+    const ppm_material_id grey = material_lambert(test.scene, 0.5f);
+    shape_place_at(test.scene,
+                   shape_box(test.scene, grey, vec3_splat(-1.0f), vec3_splat(1.0f), 1, false),
+                   place);
+    light_point(test.scene, vec3_add(place, vec3(0, 2, 0)), vec3_splat(1.0f));
+    camera_perspective(test.scene, vec3_add(place, vec3(0, 0, 4)), place, 0.5f);
+}
+
+static void a_far_scene_is_moved_to_the_origin_as_a_whole(void **state)
+{
+    (void)state;
+    const ppmi_vec3 place = vec3(65536.0f, -1024.0f, 4096.0f); /* exact in floats */
+    build_around(place);
+    ppmi_scene_freeze(test.scene);
+    ppmi_vec3 low, high;
+    assert_true(ppmi_scene_bounds(test.scene, &low, &high));
+    assert_near(low.x, -1.0, 0.0);
+    assert_near(high.y, 1.0, 0.0);
+    assert_near(test.scene->punctuals[0].position.y, 2.0, 0.0);
+    assert_near(test.scene->punctuals[0].position.x, 0.0, 0.0);
+    assert_near(test.scene->cameras[0].origin.z, 4.0, 0.0);
+    ppm_scene_info info = {.size = sizeof info};
+    assert_int_equal(ppm_scene_get_info(test.scene, &info), PPM_STATUS_OK);
+    assert_near(info.bounds_min[0], 65535.0, 0.0);
+    assert_near(info.bounds_max[2], 4097.0, 0.0);
+}
+
+static void a_near_scene_stays_where_it_is(void **state)
+{
+    (void)state;
+    build_around(vec3(3.0f, 0.0f, 0.0f));
+    ppmi_scene_freeze(test.scene);
+    assert_near(test.scene->cameras[0].origin.x, 3.0, 0.0);
+    assert_near(vec3_length(test.scene->shift), 0.0, 0.0);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -230,6 +269,8 @@ int main(void)
         WITH_SCENE(a_frozen_scene_takes_nothing),
         WITH_SCENE(facts_count_what_there_is),
         WITH_SCENE(bounds_of_turned_and_mirrored_instances_are_tight),
+        WITH_SCENE(a_far_scene_is_moved_to_the_origin_as_a_whole),
+        WITH_SCENE(a_near_scene_stays_where_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
