@@ -5,8 +5,8 @@
 #include "photon/grid.h"
 #include "shading/bsdf.h"
 
-/* Where eye paths ended on a surface that gathers: structure of arrays, one slot a pixel of the
- * batch. */
+/* Where eye paths ended on a surface that gathers: structure of arrays, one slot a pixel of a
+ * tile. */
 typedef struct ppmi_visible_points {
     uint32_t capacity;
     uint8_t *is_valid;

@@ -272,8 +272,8 @@ static ppmi_vec3 vec3_max(ppmi_vec3 a, ppmi_vec3 b)
     return vec3(ppmi_max(a.x, b.x), ppmi_max(a.y, b.y), ppmi_max(a.z, b.z));
 }
 
-/* Small meshes, and those whose instance is turned, are measured vertex by vertex: the box around a
- * turned box is too large. */
+/* Meshes whose instance is turned are measured vertex by vertex: the box around a turned box is too
+ * large. */
 static void grow_bounds(const ppmi_mesh *mesh, const ppmi_transform *to_world, ppmi_vec3 *low,
                         ppmi_vec3 *high)
 {
