@@ -109,6 +109,9 @@ static void photons_off_the_plane_do_not_count(void **state)
         assert_counts(&photon, true);
         photon = photon_at(0.1f, 0.0f, side * 0.5f);
         assert_counts(&photon, false);
+        /* beside one that counts, in the same cell: the grid alone does not sort it out */
+        const ppmi_photon pair[2] = {photon_at(0.1f, 0.0f, 0.0f), photon};
+        assert_near(gather(pair, 2, 1.0f).count, 1.0, 0.0);
     }
 }
 
