@@ -20,7 +20,30 @@ typedef struct ppm_render ppm_render;
 enum {
     PPM_INTEGRATOR_DEFAULT = 0, /* SPPM */
     PPM_INTEGRATOR_SPPM = 1,    /* stochastic progressive photon mapping (Hachisuka, Jensen 2009) */
-    PPM_INTEGRATOR_PATH = 2     /* unidirectional path tracer with light sampling, the yardstick */
+    PPM_INTEGRATOR_PATH = 2,    /* unidirectional path tracer with light sampling, the yardstick */
+    PPM_INTEGRATOR_PPM = 3      /* progressive photon mapping (Hachisuka, Ogaki, Jensen 2008) */
+};
+
+/* How the gather radius shrinks. */
+enum {
+    PPM_SCHEDULE_DEFAULT = 0,     /* PROGRESSIVE */
+    PPM_SCHEDULE_PROGRESSIVE = 1, /* by the photons that were found (Hachisuka et al. 2008) */
+    PPM_SCHEDULE_MEMORYLESS = 2   /* by the number of the pass alone (Knaus, Zwicker 2011); SPPM */
+};
+
+/* Where light comes from that meets a surface or the fog straight from a lamp. */
+enum {
+    PPM_DIRECT_DEFAULT = 0, /* SAMPLE */
+    PPM_DIRECT_SAMPLE = 1,  /* light sampling at the eye's vertices */
+    PPM_DIRECT_PHOTONS = 2  /* photons, as all other light */
+};
+
+/* What a pixel averages over. Widths are full widths, in pixels. */
+enum {
+    PPM_PIXEL_FILTER_DEFAULT = 0,        /* BLACKMAN_HARRIS */
+    PPM_PIXEL_FILTER_BOX = 1,            /* default width 1 */
+    PPM_PIXEL_FILTER_GAUSSIAN = 2,       /* cut off at its width; default 3 */
+    PPM_PIXEL_FILTER_BLACKMAN_HARRIS = 3 /* default width 3 */
 };
 
 /* 0 in any field means its default. */
@@ -36,6 +59,22 @@ typedef struct ppm_render_options {
     uint64_t seed;             /* default 0 is a seed like any other */
     uint32_t threads;          /* default: all processors that the process may use */
     ppm_camera_id camera;      /* default: the first; a scene without one is framed */
+
+    int32_t schedule;           /* PPM_SCHEDULE_ */
+    int32_t direct;             /* PPM_DIRECT_; SPPM and PPM */
+    uint64_t photons_per_epoch; /* PPM: after so many photons, in whole passes, new eye paths and
+                                   statistics; the epochs are averaged. 0: one endless epoch */
+    int32_t split_depth;        /* PPM: surfaces at which an eye path follows all its branches;
+                                   default 4; negative: none, branches are drawn at random */
+
+    float aperture_f_number;  /* default: the camera's own; infinite: a pinhole */
+    float focus_distance_m;   /* along the axis; default: the camera's own */
+    float shutter_open;       /* frames, relative to the one that is rendered; */
+    float shutter_close;      /* both 0: a moment */
+    uint32_t crop[4];         /* x0, y0, x1, y1 in pixels of the whole picture, the upper bounds
+                                 excluded; all 0: the whole picture */
+    int32_t pixel_filter;     /* PPM_PIXEL_FILTER_ */
+    float pixel_filter_width; /* pixels; default: the filter's own */
 } ppm_render_options;
 
 /* The options in effect: defaults filled in for this scene. Returns INVALID_ARGUMENT for values
@@ -84,9 +123,10 @@ typedef struct ppm_render_stats {
 /* Not while another thread is in ppm_render_advance. */
 PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats);
 
-/* Copies the picture so far: 4 * width * height floats, RGBA, row 0 on top, scene-linear Rec.709,
- * alpha premultiplied. rgba_count is the number of floats in rgba. Not while another thread is in
- * ppm_render_advance. Returns OK, INVALID_ARGUMENT, WRONG_STATE (no finished pass). */
+/* Copies the picture so far: 4 * width * height floats (with a crop, of its pixels only), RGBA, row
+ * 0 on top, scene-linear Rec.709, alpha premultiplied. rgba_count is the number of floats in rgba.
+ * Not while another thread is in ppm_render_advance. Returns OK, INVALID_ARGUMENT, WRONG_STATE (no
+ * finished pass). */
 PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
 
 #ifdef __cplusplus

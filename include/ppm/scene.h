@@ -119,6 +119,10 @@ typedef struct ppm_material_desc {
     int32_t transmission_kind;        /* PPM_TRANSMISSION_ */
     float attenuation_color[3];       /* KHR_materials_volume; default 1 1 1 */
     float attenuation_distance_m;     /* 0: none; default 0 */
+    float dispersion;                 /* KHR_materials_dispersion: 20 / Abbe number; default 0 */
+    int32_t nested_priority;          /* of solids that overlap the one with the higher number is
+                                         there, among equals the one that a ray entered last;
+                                         default 0 (docs/transport.md) */
 
     int32_t alpha_mode;    /* PPM_ALPHA_ */
     float alpha_cutoff;    /* for MASK; default 0.5 */
@@ -187,10 +191,13 @@ typedef struct ppm_camera_desc {
     const char *name;
     int32_t kind;
     float transform[16];
-    float y_fov_rad;     /* perspective: full vertical angle, 0 < a < pi */
-    float half_width_m;  /* orthographic: half of the seen width */
-    float half_height_m; /* orthographic: half of the seen height */
-    float aspect;        /* width / height that the file asks for; 0: not said */
+    float y_fov_rad;        /* perspective: full vertical angle, 0 < a < pi */
+    float half_width_m;     /* orthographic: half of the seen width */
+    float half_height_m;    /* orthographic: half of the seen height */
+    float aspect;           /* width / height that the file asks for; 0: not said */
+    float f_number;         /* perspective: focal length by aperture, for a sensor whose longer side
+                               is 36 mm; 0: a pinhole, all in focus */
+    float focus_distance_m; /* along the axis; 0: not said */
 } ppm_camera_desc;
 
 PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
@@ -238,6 +245,21 @@ typedef struct ppm_environment_desc {
  * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
  * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
+
+/* ---- fog ------------------------------------------------------------------------------------- */
+
+/* A homogeneous medium in the ball around everything in the scene that has a surface, outside of
+ * solids. */
+typedef struct ppm_fog_desc {
+    uint32_t size;     /* sizeof(ppm_fog_desc) */
+    float sigma_s[3];  /* scattering coefficient, 1/m, by linear Rec.709 channel */
+    float sigma_a[3];  /* absorption coefficient, 1/m */
+    float asymmetry_g; /* Henyey-Greenstein's mean cosine, -1 < g < 1; above 0 scatters forwards */
+} ppm_fog_desc;
+
+/* Sets or replaces the fog; all coefficients 0 takes it away. Returns OK, INVALID_ARGUMENT,
+ * WRONG_STATE. */
+PPM_API ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc);
 
 /* ---- facts ----------------------------------------------------------------------------------- */
 

@@ -14,6 +14,7 @@ typedef struct ppmi_ray {
     ppmi_vec3 origin;
     float t_max; /* in lengths of direction; INFINITY is fine */
     ppmi_vec3 direction;
+    float time; /* within the shutter, 0 .. 1 */
 } ppmi_ray;
 
 typedef struct ppmi_hit {

@@ -167,6 +167,7 @@ static struct RTCRay embree_ray(const ppmi_ray *ray)
         .dir_y = ray->direction.y,
         .dir_z = ray->direction.z,
         .tfar = ray->t_max,
+        .time = ray->time,
         .mask = ~0u,
     };
 }

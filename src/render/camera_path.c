@@ -8,6 +8,9 @@ enum { STRATIFIED_SETS = 4 };
 ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
                                        uint32_t y, uint64_t pass)
 {
+    /* numbers belong to the pixel of the whole picture: a crop shows what the whole would */
+    x += job->film.x0;
+    y += job->film.y0;
     const uint64_t pixel = (uint64_t)y * job->options->width + x;
     const uint64_t pixel_count = (uint64_t)job->options->width * job->options->height;
     const uint64_t seed = ppmi_hash64(job->options->seed) ^ ppmi_hash64(~pixel);

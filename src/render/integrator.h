@@ -8,12 +8,25 @@
 #include "ppm/render.h"
 #include "transport/world.h"
 
+/* The pixels that are rendered: a window of the whole picture. Inside the integrators x and y count
+ * from the window's corner. */
+typedef struct ppmi_film {
+    uint32_t x0, y0; /* in the whole picture */
+    uint32_t width, height;
+} ppmi_film;
+
+static inline size_t ppmi_film_pixel_count(const ppmi_film *film)
+{
+    return (size_t)film->width * film->height;
+}
+
 /* What a pass reads. Const while it runs, but for cancel. */
 typedef struct ppmi_job {
     ppm_context *context;
     const ppm_render_options *options; /* resolved */
     ppmi_world world;
-    ppmi_camera_view view;
+    ppmi_camera_view view; /* of the whole picture */
+    ppmi_film film;
     const atomic_bool *cancel;
 } ppmi_job;
 
@@ -25,7 +38,7 @@ typedef struct ppmi_integrator {
     /* Renders pass number pass (from 0) and adds to stats; state is as before if it fails or is
      * cancelled. */
     ppm_status (*pass)(const ppmi_job *job, void *state, uint64_t pass, ppm_render_stats *stats);
-    /* The picture after passes finished passes: width * height RGBA, row 0 on top. */
+    /* The film's picture after passes finished passes: RGBA, row 0 on top. */
     void (*resolve)(const ppmi_job *job, const void *state, uint64_t passes, float *rgba);
 } ppmi_integrator;
 
@@ -39,19 +52,19 @@ typedef struct ppmi_tile {
     uint32_t x0, y0, x1, y1; /* pixels, the upper bounds excluded */
 } ppmi_tile;
 
-static inline uint32_t ppmi_tile_count(const ppm_render_options *options)
+static inline uint32_t ppmi_tile_count(const ppmi_film *film)
 {
-    return ((options->width + PPMI_TILE - 1) / PPMI_TILE) *
-           ((options->height + PPMI_TILE - 1) / PPMI_TILE);
+    return ((film->width + PPMI_TILE - 1) / PPMI_TILE) *
+           ((film->height + PPMI_TILE - 1) / PPMI_TILE);
 }
 
-static inline ppmi_tile ppmi_tile_at(const ppm_render_options *options, uint32_t index)
+static inline ppmi_tile ppmi_tile_at(const ppmi_film *film, uint32_t index)
 {
-    const uint32_t columns = (options->width + PPMI_TILE - 1) / PPMI_TILE;
+    const uint32_t columns = (film->width + PPMI_TILE - 1) / PPMI_TILE;
     const uint32_t x0 = index % columns * PPMI_TILE, y0 = index / columns * PPMI_TILE;
     const uint32_t x1 = x0 + PPMI_TILE, y1 = y0 + PPMI_TILE;
-    return (ppmi_tile){x0, y0, x1 < options->width ? x1 : options->width,
-                       y1 < options->height ? y1 : options->height};
+    return (ppmi_tile){x0, y0, x1 < film->width ? x1 : film->width,
+                       y1 < film->height ? y1 : film->height};
 }
 
 /* Starts the camera path of a pixel in a pass: the walker's numbers and a ray through a random

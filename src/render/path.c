@@ -23,7 +23,7 @@ static void path_destroy(const ppmi_job *job, void *opaque)
 
 static ppm_status path_create(const ppmi_job *job, void **out_state)
 {
-    const size_t pixels = (size_t)job->options->width * job->options->height;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
     path_state *state = ppmi_alloc_zeroed(job->context, 1, sizeof *state);
     if (state) {
         state->sums = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->sums);
@@ -86,13 +86,13 @@ static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_dept
 static void render_tile(const ppmi_job *job, path_state *state, uint32_t index, uint64_t pass,
                         uint64_t *rays)
 {
-    const ppmi_tile tile = ppmi_tile_at(job->options, index);
+    const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     ppmi_walker walker = {.world = &job->world};
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++) {
             const ppmi_camera_ray camera_ray = ppmi_start_camera_path(job, &walker, x, y, pass);
             const ppmi_vec3 radiance = trace_path(&walker, camera_ray.ray, job->options->max_depth);
-            const size_t pixel = (size_t)y * job->options->width + x;
+            const size_t pixel = (size_t)y * job->film.width + x;
             state->next_sums[pixel] = vec3_is_finite(radiance)
                                           ? vec3_add(state->sums[pixel], radiance)
                                           : state->sums[pixel];
@@ -106,7 +106,7 @@ static ppm_status path_pass(const ppmi_job *job, void *opaque, uint64_t pass,
 {
     path_state *state = opaque;
     const double start = omp_get_wtime();
-    const uint32_t tiles = ppmi_tile_count(job->options);
+    const uint32_t tiles = ppmi_tile_count(&job->film);
     uint64_t rays = 0;
 #pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)             \
     reduction(+ : rays)
@@ -120,7 +120,7 @@ static ppm_status path_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     state->sums = state->next_sums;
     state->next_sums = sums;
     stats->rays += rays;
-    stats->eye_paths += (uint64_t)job->options->width * job->options->height;
+    stats->eye_paths += ppmi_film_pixel_count(&job->film);
     stats->seconds_eye += omp_get_wtime() - start;
     return PPM_STATUS_OK;
 }
@@ -128,7 +128,7 @@ static ppm_status path_pass(const ppmi_job *job, void *opaque, uint64_t pass,
 static void path_resolve(const ppmi_job *job, const void *opaque, uint64_t passes, float *rgba)
 {
     const path_state *state = opaque;
-    const size_t pixels = (size_t)job->options->width * job->options->height;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
     for (size_t i = 0; i < pixels; i++) {
         vec3_store(rgba + 4 * i, vec3_scale(state->sums[i], 1.0f / (float)passes));
         rgba[4 * i + 3] = 1.0f;

@@ -42,6 +42,22 @@ static void resolve_size(const ppm_scene *scene, ppm_render_options *options)
     if (options->height == 0) options->height = at_least_one((float)options->width / aspect);
 }
 
+static ppm_status resolve_crop(const ppm_scene *scene, ppm_render_options *options)
+{
+    uint32_t *crop = options->crop;
+    if (crop[0] == 0 && crop[1] == 0 && crop[2] == 0 && crop[3] == 0) {
+        crop[2] = options->width;
+        crop[3] = options->height;
+    }
+    if (crop[0] >= crop[2] || crop[1] >= crop[3] || crop[2] > options->width ||
+        crop[3] > options->height) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "crop %u,%u,%u,%u is empty or not within the picture of %ux%u", crop[0],
+                         crop[1], crop[2], crop[3], options->width, options->height);
+    }
+    return PPM_STATUS_OK;
+}
+
 static ppm_status check_options(const ppm_scene *scene, const ppm_render_options *options)
 {
     ppm_context *context = scene->context;
@@ -81,11 +97,13 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     ppm_render_options resolved = {0};
     if (options) resolved = *options;
     resolved.size = sizeof resolved;
-    const ppm_status status = check_options(scene, &resolved);
+    ppm_status status = check_options(scene, &resolved);
     if (status != PPM_STATUS_OK) return status;
     if (resolved.integrator == PPM_INTEGRATOR_DEFAULT) resolved.integrator = PPM_INTEGRATOR_SPPM;
     if (resolved.camera == 0 && scene->camera_count > 0) resolved.camera = 1;
     resolve_size(scene, &resolved);
+    status = resolve_crop(scene, &resolved);
+    if (status != PPM_STATUS_OK) return status;
     if (resolved.photons_per_pass == 0) {
         const uint64_t pixels = (uint64_t)resolved.width * resolved.height;
         const uint64_t least = 262144, most = (uint64_t)1 << 22;
@@ -168,6 +186,8 @@ static ppm_status start(ppm_render *render)
                   .has_alpha = any_material_has_alpha(render->scene)},
         .cancel = &render->cancel,
     };
+    const uint32_t *crop = render->options.crop;
+    render->job.film = (ppmi_film){crop[0], crop[1], crop[2] - crop[0], crop[3] - crop[1]};
     ppmi_camera_view_init(&render->scene->cameras[render->options.camera - 1],
                           render->options.width, render->options.height, &render->job.view);
     render->integrator = render->options.integrator == PPM_INTEGRATOR_PATH ? &ppmi_integrator_path
@@ -254,7 +274,7 @@ ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_
 ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count)
 {
     if (!render || !rgba) return PPM_STATUS_INVALID_ARGUMENT;
-    const size_t needed = 4 * (size_t)render->options.width * render->options.height;
+    const size_t needed = 4 * ppmi_film_pixel_count(&render->job.film);
     if (rgba_count != needed) {
         return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
                          "the picture has %zu floats, the buffer %zu", needed, rgba_count);

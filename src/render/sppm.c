@@ -68,7 +68,7 @@ static void sppm_destroy(const ppmi_job *job, void *opaque)
 
 static ppm_status allocate(const ppmi_job *job, sppm_state *state)
 {
-    const size_t pixels = (size_t)job->options->width * job->options->height;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
     state->pixels = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->pixels);
     state->next_pixels = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->next_pixels);
     state->points = ppmi_alloc_zeroed(job->context, job->options->threads, sizeof *state->points);
@@ -199,7 +199,7 @@ static void grow_radius(const ppmi_job *job, const sppm_state *state,
 static void pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
 {
     ppmi_visible_points *points = &state->points[omp_get_thread_num()];
-    const ppmi_tile tile = ppmi_tile_at(job->options, index);
+    const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     ppmi_vec3 radiance[PPMI_TILE_PIXELS];
     uint64_t rays = 0;
     eye_tile(job, points, tile, PILOT_PASS, radiance, &rays);
@@ -207,7 +207,7 @@ static void pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
             if (!points->is_valid[slot]) continue;
-            const size_t pixel = (size_t)y * job->options->width + x;
+            const size_t pixel = (size_t)y * job->film.width + x;
             grow_radius(job, state, points, slot, &state->pixels[pixel].scale);
         }
     }
@@ -220,7 +220,7 @@ static ppm_status pilot_pass(const ppmi_job *job, sppm_state *state, ppm_render_
     const ppm_status status = photon_pass(job, state, PILOT_PASS / job->options->photons_per_pass,
                                           state->first_radius, stats);
     if (status != PPM_STATUS_OK) return status;
-    const uint32_t tiles = ppmi_tile_count(job->options);
+    const uint32_t tiles = ppmi_tile_count(&job->film);
 #pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)
     for (uint32_t i = 0; i < tiles; i++) {
         if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) pilot_tile(job, state, i);
@@ -255,7 +255,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
                         tile_totals *totals)
 {
     ppmi_visible_points *points = &state->points[omp_get_thread_num()];
-    const ppmi_tile tile = ppmi_tile_at(job->options, index);
+    const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     ppmi_vec3 radiance[PPMI_TILE_PIXELS];
     const double start = omp_get_wtime();
     eye_tile(job, points, tile, pass, radiance, &totals->rays);
@@ -263,7 +263,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
-            const size_t pixel = (size_t)y * job->options->width + x;
+            const size_t pixel = (size_t)y * job->film.width + x;
             pixel_statistics next = update(job, state, points, slot, state->pixels[pixel]);
             if (vec3_is_finite(radiance[slot])) {
                 next.direct = vec3_add(next.direct, radiance[slot]);
@@ -278,7 +278,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
 static ppm_status eye_and_gather(const ppmi_job *job, sppm_state *state, uint64_t pass,
                                  tile_totals *out_totals)
 {
-    const uint32_t tiles = ppmi_tile_count(job->options);
+    const uint32_t tiles = ppmi_tile_count(&job->film);
     uint64_t rays = 0;
     double seconds_eye = 0.0, seconds_gather = 0.0;
 #pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)             \
@@ -323,7 +323,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     added.seconds_gather += totals.seconds_gather / threads;
     added.photons_emitted += job->options->photons_per_pass;
     added.photons_stored += state->photons.count;
-    added.eye_paths += (uint64_t)job->options->width * job->options->height;
+    added.eye_paths += ppmi_film_pixel_count(&job->film);
     *stats = added;
     return PPM_STATUS_OK;
 }
@@ -331,7 +331,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
 static void sppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passes, float *rgba)
 {
     const sppm_state *state = opaque;
-    const size_t pixels = (size_t)job->options->width * job->options->height;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
     const double emitted = (double)passes * (double)job->options->photons_per_pass;
     for (size_t i = 0; i < pixels; i++) {
         const pixel_statistics *pixel = &state->pixels[i];

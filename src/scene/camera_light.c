@@ -39,9 +39,11 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
     const char *name = desc->name ? desc->name : "";
     const ppmi_transform to_world = ppmi_transform_load(desc->transform);
     ppmi_vec3 right, up, back;
-    if (!camera_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
+    const bool lens_is_valid = desc->f_number >= 0.0f && desc->focus_distance_m >= 0.0f &&
+                               isfinite(desc->focus_distance_m);
+    if (!lens_is_valid || !camera_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "camera '%s': angle, size, aspect or transform out of range", name);
+                         "camera '%s': angle, size, aspect, lens or transform out of range", name);
     }
     ppmi_camera *cameras =
         ppmi_scene_grow(scene->context, scene->cameras, scene->camera_count, sizeof *cameras);
@@ -61,6 +63,8 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .half_width_m = desc->half_width_m,
         .half_height_m = desc->half_height_m,
         .aspect = is_orthographic ? desc->half_width_m / desc->half_height_m : desc->aspect,
+        .f_number = desc->f_number,
+        .focus_distance_m = desc->focus_distance_m,
     };
     *out_id = ++scene->camera_count;
     return PPM_STATUS_OK;

@@ -185,6 +185,7 @@ static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc 
         {"transmission", &desc->transmission, 1, 0.0f, 1.0f},
         {"attenuation_color", desc->attenuation_color, 3, 0.0f, 1.0f},
         {"attenuation_distance_m", &desc->attenuation_distance_m, 1, 0.0f, INFINITY},
+        {"dispersion", &desc->dispersion, 1, 0.0f, 1e3f},
         {"alpha_cutoff", &desc->alpha_cutoff, 1, 0.0f, huge},
     };
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
@@ -253,6 +254,23 @@ ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_des
         .rotation_rad = desc->rotation_rad,
         .has_backdrop = desc->has_backdrop != 0,
         .backdrop = vec3_load(desc->backdrop),
+    };
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!desc || desc->size < sizeof *desc || !all_in(desc->sigma_s, 3, 0.0f, 1e12f) ||
+        !all_in(desc->sigma_a, 3, 0.0f, 1e12f) || !(fabsf(desc->asymmetry_g) < 1.0f)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "fog: coefficients must be at least 0 per metre, g between -1 and 1");
+    }
+    scene->fog = (ppmi_fog){
+        .sigma_s = vec3_load(desc->sigma_s),
+        .sigma_a = vec3_load(desc->sigma_a),
+        .asymmetry_g = desc->asymmetry_g,
     };
     return PPM_STATUS_OK;
 }

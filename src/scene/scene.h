@@ -68,6 +68,8 @@ typedef struct ppmi_camera {
     float y_fov_rad;
     float half_width_m, half_height_m;
     float aspect;
+    float f_number;         /* 0: pinhole */
+    float focus_distance_m; /* 0: not said */
 } ppmi_camera;
 
 typedef struct ppmi_punctual {
@@ -87,6 +89,11 @@ typedef struct ppmi_environment {
     ppmi_vec3 backdrop;
 } ppmi_environment;
 
+typedef struct ppmi_fog {
+    ppmi_vec3 sigma_s, sigma_a; /* 1/m; all 0: none */
+    float asymmetry_g;
+} ppmi_fog;
+
 struct ppm_scene {
     ppm_context *context;
     float srgb_to_linear[256];
@@ -98,6 +105,7 @@ struct ppm_scene {
     ppmi_camera *cameras;
     ppmi_punctual *punctuals;
     ppmi_environment environment;
+    ppmi_fog fog;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
     ppmi_vec3 shift; /* what has been subtracted from all positions; see ppmi_scene_freeze */
     bool is_frozen;
