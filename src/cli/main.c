@@ -95,11 +95,21 @@ static void show_and_refresh(cli_program *program, cli_progress *progress, doubl
     outputs_refresh(&program->outputs, program->render, elapsed);
 }
 
+/* Epochs are whole passes. */
+static uint64_t pass_limit(const cli_program *program)
+{
+    if (program->options.epochs == 0) return program->options.passes;
+    const ppm_render_options *const options = ppm_render_get_options(program->render);
+    const uint64_t per_epoch =
+        (options->photons_per_epoch + options->photons_per_pass - 1) / options->photons_per_pass;
+    return program->options.epochs * per_epoch;
+}
+
 /* Passes until a stop, a signal or a failure. *out_passes counts the finished ones. */
 static int run_passes(cli_program *program, uint64_t *out_passes)
 {
     cli_progress progress;
-    progress_init(&progress, program->options.passes, program->options.seconds);
+    progress_init(&progress, pass_limit(program), program->options.seconds);
     signals_enter_first_pass(program->render);
     say_what_begins(&program->console, program->render);
     const double begin = clock_seconds();

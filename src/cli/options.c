@@ -13,7 +13,7 @@
 #include "ppm/ppm.h"
 #include "values.h"
 
-enum { DEFAULT_PASSES = 256 };
+enum { DEFAULT_PASSES = 256, DEFAULT_PHOTONS_PER_EPOCH = 10000000 };
 
 typedef enum value_kind {
     VALUE_SET,     /* no argument: stores .set in an int32_t */
@@ -23,6 +23,8 @@ typedef enum value_kind {
     VALUE_COUNT,   /* uint64_t, with k, M, G */
     VALUE_REAL,    /* double */
     VALUE_SIZE,    /* image_size */
+    VALUE_FOG,     /* fog_values */
+    VALUE_SPLIT,   /* int32_t: a number, 0 stored as -1 */
     VALUE_CHOICE   /* int32_t, from a list of names */
 } value_kind;
 
@@ -45,8 +47,14 @@ typedef struct option_row {
     const char *group;     /* a heading, where a group begins */
 } option_row;
 
-static const choice integrators[] = {
-    {"sppm", PPM_INTEGRATOR_SPPM}, {"path", PPM_INTEGRATOR_PATH}, {NULL, 0}};
+static const choice integrators[] = {{"sppm", PPM_INTEGRATOR_SPPM},
+                                     {"ppm", PPM_INTEGRATOR_PPM},
+                                     {"path", PPM_INTEGRATOR_PATH},
+                                     {NULL, 0}};
+static const choice schedules[] = {
+    {"progressive", PPM_SCHEDULE_PROGRESSIVE}, {"memoryless", PPM_SCHEDULE_MEMORYLESS}, {NULL, 0}};
+static const choice directs[] = {
+    {"sample", PPM_DIRECT_SAMPLE}, {"photons", PPM_DIRECT_PHOTONS}, {NULL, 0}};
 static const choice light_units[] = {{"auto", PPM_LIGHT_UNITS_AUTO},
                                      {"gltf", PPM_LIGHT_UNITS_GLTF},
                                      {"blender", PPM_LIGHT_UNITS_BLENDER},
@@ -77,6 +85,7 @@ static const option_row rows[] = {
     {"integrator", 'i', VALUE_CHOICE, FIELD(integrator), .choices = integrators, .argument = "NAME",
      .group = "Light transport",
      .help = "sppm: stochastic progressive photon mapping (default)\n"
+             "ppm: progressive photon mapping, one eye pass or epochs\n"
              "path: unidirectional path tracer, to compare with"},
     {"photons", 'p', VALUE_COUNT, FIELD(photons), .least = 1, .most = UINT64_C(1) << 40,
      .argument = "N",
@@ -87,6 +96,21 @@ static const option_row rows[] = {
     {"alpha", 0, VALUE_REAL, FIELD(alpha), .low = 1e-6, .high = 1.0, .argument = "A",
      .help = "share of new photons that is kept, above 0, up to 1; less\n"
              "shrinks the radius faster (default: 2/3)"},
+    {"schedule", 0, VALUE_CHOICE, FIELD(schedule), .choices = schedules, .argument = "HOW",
+     .help = "how sppm's radius shrinks: progressive, by the photons found\n"
+             "(default), or memoryless, by the number of the pass"},
+    {"direct", 0, VALUE_CHOICE, FIELD(direct), .choices = directs, .argument = "HOW",
+     .help = "light straight from lamps: sample (default), or photons as for\n"
+             "all other light"},
+    {"epochs", 0, VALUE_COUNT, FIELD(epochs), .least = 1, .most = 1000000, .argument = "K",
+     .help = "ppm: render K times with new eye paths and average, in place\n"
+             "of --passes (default: one eye pass for ever)"},
+    {"photons-per-epoch", 0, VALUE_COUNT, FIELD(photons_per_epoch), .least = 1,
+     .most = UINT64_C(1) << 50, .argument = "N",
+     .help = "ppm: photons of an epoch (default with --epochs: 10 million)"},
+    {"split-depth", 0, VALUE_SPLIT, FIELD(split_depth), .least = 0, .most = 12, .argument = "N",
+     .help = "ppm: at so many surfaces an eye path follows both reflection\n"
+             "and refraction; beyond, one is drawn (default: 4)"},
     {"max-depth", 0, VALUE_INTEGER, FIELD(max_depth), .least = 1, .most = 10000, .argument = "N",
      .help = "bounces of a path (default: 32)"},
     {"seed", 0, VALUE_INTEGER, FIELD(seed), .most = INT64_MAX, .argument = "N",
@@ -99,6 +123,9 @@ static const option_row rows[] = {
              "without a camera is shown whole)"},
     {"env", 0, VALUE_TEXT, FIELD(environment), .argument = "FILE",
      .help = "light from a latitude-longitude picture, besides INPUT's lights"},
+    {"fog", 0, VALUE_FOG, FIELD(fog), .argument = "S,A[,G]",
+     .help = "fog around everything: scattering and absorption per metre;\n"
+             "G from -1 to 1 scatters backwards or forwards (default: 0)"},
     {"light-units", 0, VALUE_CHOICE, FIELD(light_units), .choices = light_units, .argument = "HOW",
      .help = "how lamps are read: auto, gltf, blender, raw (default: auto)"},
     {"transmission", 0, VALUE_CHOICE, FIELD(transmission), .choices = transmissions,
@@ -250,6 +277,28 @@ static int store_size(const option_row *row, const char *text, image_size *field
     return EXIT_DONE;
 }
 
+static int store_fog(const option_row *row, const char *text, fog_values *field)
+{
+    double values[3] = {0.0, 0.0, 0.0};
+    uint32_t count = 0;
+    if (!value_parse_reals(text, 2, 3, values, &count) || values[0] < 0.0 || values[1] < 0.0 ||
+        values[0] > 1e9 || values[1] > 1e9 || !(values[2] > -1.0 && values[2] < 1.0)) {
+        return complain(row, text,
+                        "like 0.1,0.01 or 0.1,0.01,0.5: two coefficients of at least 0 and "
+                        "a number between -1 and 1");
+    }
+    *field = (fog_values){values[0], values[1], values[2]};
+    return EXIT_DONE;
+}
+
+static int store_split(const option_row *row, const char *text, int32_t *field)
+{
+    uint64_t value = 0;
+    const int status = store_integer(row, text, &value);
+    if (status == EXIT_DONE) *field = value == 0 ? -1 : (int32_t)value;
+    return status;
+}
+
 static int store_choice(const option_row *row, const char *text, int32_t *field)
 {
     enum { CHOICES_MAX = 16 };
@@ -293,6 +342,10 @@ static int store(const option_row *row, const char *text, cli_options *options)
         return store_real(row, text, field);
     case VALUE_SIZE:
         return store_size(row, text, field);
+    case VALUE_FOG:
+        return store_fog(row, text, field);
+    case VALUE_SPLIT:
+        return store_split(row, text, field);
     case VALUE_CHOICE:
         return store_choice(row, text, field);
     }
@@ -402,6 +455,16 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
         return give_hint();
     }
     out_options->input = argv[optind];
+    if (out_options->epochs > 0 && out_options->passes > 0) {
+        fputs("ppm-render: error: --epochs and --passes both say when to stop\n", stderr);
+        return give_hint();
+    }
+    if (out_options->epochs > 0) {
+        if (out_options->photons_per_epoch == 0) {
+            out_options->photons_per_epoch = DEFAULT_PHOTONS_PER_EPOCH;
+        }
+        return EXIT_DONE; /* passes follow from the photons of a pass */
+    }
     if (out_options->passes == 0 && !(out_options->seconds > 0.0)) {
         out_options->passes = DEFAULT_PASSES;
     }

@@ -28,6 +28,11 @@ typedef struct image_size {
     uint32_t width, height; /* 0: not said */
 } image_size;
 
+/* --fog: coefficients by metre, and the mean cosine of scattering. */
+typedef struct fog_values {
+    double sigma_s, sigma_a, g;
+} fog_values;
+
 /* 0 or NULL: not given, unless a comment says otherwise. Strings belong to argv. */
 typedef struct cli_options {
     int32_t action;    /* ACTION_ */
@@ -41,6 +46,11 @@ typedef struct cli_options {
     double seconds;
 
     int32_t integrator; /* PPM_INTEGRATOR_ */
+    int32_t schedule;   /* PPM_SCHEDULE_ */
+    int32_t direct;     /* PPM_DIRECT_ */
+    uint64_t epochs;
+    uint64_t photons_per_epoch;
+    int32_t split_depth; /* as in ppm_render_options */
     image_size size;
     uint64_t photons;
     double radius_m;
@@ -51,6 +61,7 @@ typedef struct cli_options {
 
     const char *camera;
     const char *environment;
+    fog_values fog;
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
 

@@ -16,6 +16,16 @@ static ppm_status add_environment(ppm_scene *scene, const char *path)
     return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;
 }
 
+static ppm_status add_fog(ppm_scene *scene, const fog_values *fog)
+{
+    const float s = (float)fog->sigma_s, a = (float)fog->sigma_a;
+    const ppm_fog_desc desc = {.size = sizeof desc,
+                               .sigma_s = {s, s, s},
+                               .sigma_a = {a, a, a},
+                               .asymmetry_g = (float)fog->g};
+    return s > 0.0f || a > 0.0f ? ppm_scene_set_fog(scene, &desc) : PPM_STATUS_OK;
+}
+
 int setup_scene(ppm_scene *scene, const cli_options *options)
 {
     const ppm_import_options import_options = {.size = sizeof import_options,
@@ -25,6 +35,7 @@ int setup_scene(ppm_scene *scene, const cli_options *options)
     if (status == PPM_STATUS_OK && options->environment) {
         status = add_environment(scene, options->environment);
     }
+    if (status == PPM_STATUS_OK) status = add_fog(scene, &options->fog);
     return exit_status_of(status, EXIT_INPUT);
 }
 
@@ -73,6 +84,10 @@ int setup_render_options(cli_console *console, const ppm_scene *scene, const cli
     *out_render_options = (ppm_render_options){
         .size = sizeof *out_render_options,
         .integrator = options->integrator,
+        .schedule = options->schedule,
+        .direct = options->direct,
+        .photons_per_epoch = options->photons_per_epoch,
+        .split_depth = options->split_depth,
         .width = options->size.width,
         .height = options->size.height,
         .photons_per_pass = options->photons,

@@ -138,7 +138,8 @@ static json_t *scene_json(const ppm_scene *scene)
 
 static const char *integrator_name(int32_t integrator)
 {
-    return integrator == PPM_INTEGRATOR_PATH ? "path" : "sppm";
+    if (integrator == PPM_INTEGRATOR_PATH) return "path";
+    return integrator == PPM_INTEGRATOR_PPM ? "ppm" : "sppm";
 }
 
 /* The three parts keep each json_pack readable: settings, counts, times. */

@@ -66,6 +66,29 @@ bool value_parse_real(const char *text, double *out_value)
     return true;
 }
 
+bool value_parse_reals(const char *text, uint32_t least, uint32_t most, double *out_values,
+                       uint32_t *out_count)
+{
+    enum { LONGEST = 64 };
+    double values[16];
+    uint32_t count = 0;
+    for (;;) {
+        char word[LONGEST];
+        const size_t length = strcspn(text, ",");
+        if (count == most || count == 16 || length >= sizeof word) return false;
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (!value_parse_real(word, &values[count])) return false;
+        count++;
+        if (text[length] == '\0') break;
+        text += length + 1;
+    }
+    if (count < least) return false;
+    memcpy(out_values, values, count * sizeof *values);
+    *out_count = count;
+    return true;
+}
+
 bool value_parse_size(const char *text, uint32_t *out_width, uint32_t *out_height)
 {
     uint64_t width = 0, height = 0;

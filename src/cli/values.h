@@ -11,6 +11,9 @@ bool value_parse_integer(const char *text, uint64_t *out_value);
 bool value_parse_count(const char *text, uint64_t *out_value);
 /* A finite number in decimal or exponent notation. */
 bool value_parse_real(const char *text, double *out_value);
+/* "0.1,0,0.5": from least to most finite numbers, separated by commas; *out_count gets how many. */
+bool value_parse_reals(const char *text, uint32_t least, uint32_t most, double *out_values,
+                       uint32_t *out_count);
 /* "1280x720": two integers that fit 32 bits. */
 bool value_parse_size(const char *text, uint32_t *out_width, uint32_t *out_height);
 

@@ -1,51 +1,89 @@
-/* The eye pass of stochastic progressive photon mapping (Hachisuka and Jensen 2009).
+/* The eye pass of progressive photon mapping (Hachisuka, Ogaki, Jensen 2008) and of its stochastic
+ * form (Hachisuka and Jensen 2009).
  *
  * The choice between gathering and going on is made lobe by lobe: at each surface the path draws
  * either the group of lobes that gather (and ends there) or the group that goes on, by their
- * albedos. A plastic thus shows its diffuse base by photons and its reflections by tracing. */
+ * albedos. A plastic thus shows its diffuse base by photons and its reflections by tracing. A path
+ * that is kept for a whole render draws nothing while it may split: it gathers and goes on by each
+ * lobe, through glass and off it. */
 #include "photon/eye.h"
 
 /* Paths are not ended by chance before this depth: chains of glass need them. */
 enum { ROULETTE_DEPTH = 6 };
 
-typedef struct eye_state {
+/* Each split leaves at most three branches for later: two of glass, one of a narrow lobe. */
+enum { MAX_BRANCHES = 3 * PPMI_MAX_SPLIT_DEPTH + 1 };
+
+/* Branches that carry less than this are drawn by chance again. */
+static const float least_split_throughput = 1e-3f;
+
+typedef struct eye_branch {
     ppmi_ray ray;
     ppmi_origin origin;
     ppmi_vec3 throughput;       /* for what the path meets next by going on */
     ppmi_vec3 light_throughput; /* for emission that it meets next: all lobes, not the group's */
-    ppmi_vec3 radiance;
-    float cone_width, cone_spread;
-} eye_state;
+    float eta_scale;            /* of radiance by refraction, in both */
+    float cone_width;
+    uint32_t depth, splits;
+    ppmi_interior interior; /* the walker's, while the branch waits */
+    float wavelength_nm;
+} eye_branch;
 
-static void add(eye_state *state, ppmi_vec3 throughput, ppmi_vec3 radiance)
+typedef struct eye_path {
+    ppm_context *context;
+    ppmi_walker *walker;
+    const ppmi_eye_settings *settings;
+    float cone_spread;
+    uint32_t owner;
+    ppmi_visible_points *points;
+    ppmi_vec3 *radiance;
+    eye_branch waiting[MAX_BRANCHES];
+    uint32_t waiting_count;
+} eye_path;
+
+/* A vertex of a branch with what is there. */
+typedef struct eye_vertex {
+    ppmi_vertex vertex;
+    ppmi_bsdf bsdf;
+} eye_vertex;
+
+static void add(eye_path *path, ppmi_vec3 throughput, ppmi_vec3 radiance)
 {
-    state->radiance = vec3_add(state->radiance, vec3_mul(throughput, radiance));
+    const ppmi_vec3 added = vec3_mul(throughput, radiance);
+    if (vec3_is_finite(added)) *path->radiance = vec3_add(*path->radiance, added);
 }
+
+/* ---- gathering ------------------------------------------------------------------------------- */
 
 /* Side of a square with the area of the pixel's footprint on the surface. */
-static float footprint(const eye_state *state, const ppmi_bsdf *bsdf)
+static float footprint(const eye_branch *branch, const ppmi_bsdf *bsdf)
 {
-    const float cosine = fabsf(vec3_dot(state->ray.direction, bsdf->ng));
-    return state->cone_width / sqrtf(ppmi_max(cosine, 0.1f));
+    if (ppmi_bsdf_is_phase(bsdf)) return branch->cone_width;
+    const float cosine = fabsf(vec3_dot(branch->ray.direction, bsdf->ng));
+    return branch->cone_width / sqrtf(ppmi_max(cosine, 0.1f));
 }
 
-static void record(const eye_state *state, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
-                   float probability, ppmi_visible_points *points, uint32_t i)
+static bool record(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+                   float probability)
 {
-    points->is_valid[i] = 1;
-    points->x[i] = vertex->surface.position.x;
-    points->y[i] = vertex->surface.position.y;
-    points->z[i] = vertex->surface.position.z;
-    points->footprint[i] = footprint(state, bsdf);
-    points->throughput[i] = vec3_scale(state->throughput, 1.0f / probability);
-    points->bsdf[i] = *bsdf;
+    const ppmi_visible_point point = {
+        .position = at->vertex.surface.position,
+        .footprint = footprint(branch, &at->bsdf),
+        .throughput = vec3_scale(branch->throughput, 1.0f / probability),
+        .owner = path->owner,
+        .bsdf = at->bsdf,
+    };
+    return ppmi_visible_points_push(path->context, path->points, &point);
 }
 
-/* The other half of MIS where the path ends: a direction from the gathering lobes may meet a light.
- */
-static void add_bsdf_sampled_light(ppmi_walker *walker, eye_state *state, const ppmi_vertex *vertex,
-                                   const ppmi_bsdf *bsdf)
+/* The other half of MIS where the path gathers: a direction from the gathering lobes may meet a
+ * light. A path that draws its group weighs with all lobes and their whole density, since the group
+ * is part of the draw; one that splits with the group's own. */
+static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+                                   bool is_split)
 {
+    ppmi_walker *walker = path->walker;
+    const ppmi_bsdf *bsdf = &at->bsdf;
     const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
                 v = ppmi_walker_float(walker);
     ppmi_bsdf_sample sample;
@@ -53,103 +91,217 @@ static void add_bsdf_sampled_light(ppmi_walker *walker, eye_state *state, const 
                         u_lobe, u, v, &sample)) {
         return;
     }
-    const ppmi_vec3 f = ppmi_bsdf_eval(bsdf, walker->world->albedo, sample.wi, PPMI_LOBE_ALL,
-                                       PPMI_TRANSPORT_RADIANCE);
     const float pdf = ppmi_bsdf_pdf(bsdf, sample.wi, PPMI_LOBE_ALL);
     if (!(pdf > 0.0f)) return;
-    const ppmi_origin origin = {.pdf = pdf, .normal = bsdf->frame.n};
-    const float cosine = fabsf(ppmi_bsdf_cosine(bsdf, sample.wi));
-    const ppmi_vec3 throughput = vec3_mul(state->throughput, vec3_scale(f, cosine / pdf));
-    ppmi_vertex next;
-    const ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample.wi);
-    if (ppmi_walk_to_surface(walker, ray, PPMI_RAY_OTHER, &next)) {
-        add(state, vec3_mul(throughput, next.transmittance),
-            ppmi_walk_emission(walker, &next, sample.wi, &origin));
-    } else {
-        add(state, throughput, ppmi_walk_environment(walker, sample.wi, &origin));
+    ppmi_vec3 weight = sample.weight;
+    if (!is_split) {
+        const ppmi_vec3 f = ppmi_bsdf_eval(bsdf, walker->world->albedo, sample.wi, PPMI_LOBE_ALL,
+                                           PPMI_TRANSPORT_RADIANCE);
+        weight = vec3_scale(f, fabsf(ppmi_bsdf_cosine(bsdf, sample.wi)) / pdf);
     }
+    ppmi_vec3 throughput = vec3_mul(branch->throughput, weight);
+    const ppmi_origin origin = {.pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
+    const ppmi_interior interior = walker->interior;
+    const float wavelength = walker->wavelength_nm;
+    const ppmi_ray ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput);
+    ppmi_vertex next;
+    const ppmi_arrival arrival = ppmi_walk(walker, ray, PPMI_RAY_OTHER, &next);
+    throughput = vec3_mul(throughput, next.transmittance);
+    if (arrival == PPMI_AT_SURFACE) {
+        add(path, throughput, ppmi_walk_emission(walker, &next, sample.wi, &origin));
+    } else if (arrival == PPMI_ESCAPED) {
+        add(path, throughput, ppmi_walk_environment(walker, sample.wi, &origin));
+    }
+    walker->interior = interior;
+    walker->wavelength_nm = wavelength;
+}
+
+static bool gather(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+                   float probability, bool is_split)
+{
+    if (path->settings->samples_lights) add_bsdf_sampled_light(path, branch, at, is_split);
+    return record(path, branch, at, probability);
+}
+
+/* ---- going on -------------------------------------------------------------------------------- */
+
+/* The branch beyond a vertex in a sampled direction. weight: of the direction for what is met by
+ * going on, light_weight: for emission that is met next. */
+static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+                                const ppmi_bsdf_sample *sample, ppmi_vec3 weight,
+                                ppmi_vec3 light_weight)
+{
+    ppmi_walker *walker = path->walker;
+    const bool is_weighed = path->settings->samples_lights && !sample->is_delta;
+    eye_branch next = *branch;
+    ppmi_vec3 cost = vec3_splat(1.0f);
+    next.ray = ppmi_walk_leave(walker, &at->vertex, sample, &cost);
+    next.throughput = vec3_mul(vec3_mul(branch->throughput, weight), cost);
+    next.light_throughput = vec3_mul(vec3_mul(branch->throughput, light_weight), cost);
+    next.eta_scale *= sample->eta_scale;
+    next.origin = (ppmi_origin){.is_delta = !is_weighed, .normal = ppmi_bsdf_normal(&at->bsdf)};
+    if (is_weighed) next.origin.pdf = ppmi_bsdf_pdf(&at->bsdf, sample->wi, PPMI_LOBE_ALL);
+    next.interior = walker->interior;
+    next.wavelength_nm = walker->wavelength_nm;
+    next.depth = branch->depth + 1;
+    return next;
+}
+
+static bool draw(eye_path *path, const eye_vertex *at, uint32_t mask, ppmi_bsdf_sample *sample)
+{
+    ppmi_walker *walker = path->walker;
+    const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
+                v = ppmi_walker_float(walker);
+    return ppmi_bsdf_draw(&at->bsdf, walker->world->albedo, mask, PPMI_TRANSPORT_RADIANCE, u_lobe,
+                          u, v, sample);
 }
 
 /* Goes on by the lobes that do not gather. Emission met next is weighed with all lobes and their
  * full density, since light sampling here stood for all of them. */
-static bool go_on(ppmi_walker *walker, eye_state *state, const ppmi_vertex *vertex,
-                  const ppmi_bsdf *bsdf, uint32_t mask, float probability)
+static bool go_on(eye_path *path, eye_branch *branch, const eye_vertex *at, uint32_t mask,
+                  float probability)
 {
-    const ppmi_albedo_table *albedo = walker->world->albedo;
-    const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
-                v = ppmi_walker_float(walker);
     ppmi_bsdf_sample sample;
-    if (!ppmi_bsdf_draw(bsdf, albedo, mask, PPMI_TRANSPORT_RADIANCE, u_lobe, u, v, &sample)) {
+    if (!draw(path, at, mask, &sample)) return false;
+    const ppmi_vec3 weight = vec3_scale(sample.weight, 1.0f / probability);
+    ppmi_vec3 light_weight = weight;
+    if (!sample.is_delta && path->settings->samples_lights) {
+        const ppmi_vec3 f = ppmi_bsdf_eval(&at->bsdf, path->walker->world->albedo, sample.wi,
+                                           PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
+        const float pdf = ppmi_bsdf_pdf(&at->bsdf, sample.wi, PPMI_LOBE_ALL);
+        light_weight = vec3_scale(f, fabsf(ppmi_bsdf_cosine(&at->bsdf, sample.wi)) / pdf);
+    }
+    *branch = branch_beyond(path, branch, at, &sample, weight, light_weight);
+    return true;
+}
+
+static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+                    const ppmi_bsdf_sample *sample)
+{
+    const ppmi_interior interior = path->walker->interior;
+    const float wavelength = path->walker->wavelength_nm;
+    eye_branch next = branch_beyond(path, branch, at, sample, sample->weight, sample->weight);
+    next.splits++;
+    path->walker->interior = interior;
+    path->walker->wavelength_nm = wavelength;
+    if (!vec3_is_black(next.throughput)) path->waiting[path->waiting_count++] = next;
+}
+
+/* Puts off one branch for each direction of the delta lobes, and one for the narrow lobes. */
+static void split(eye_path *path, const eye_branch *branch, const eye_vertex *at, uint32_t mask)
+{
+    ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
+    const uint32_t count = ppmi_bsdf_branches(&at->bsdf, mask, PPMI_TRANSPORT_RADIANCE, samples);
+    for (uint32_t i = 0; i < count; i++)
+        put_off(path, branch, at, &samples[i]);
+    const uint32_t narrow = mask & (uint32_t)~at->bsdf.delta_lobes;
+    ppmi_bsdf_sample sample;
+    if (narrow != 0 && draw(path, at, narrow, &sample)) put_off(path, branch, at, &sample);
+}
+
+static bool may_split(const eye_path *path, const eye_branch *branch)
+{
+    return branch->splits < path->settings->split_depth &&
+           path->waiting_count + 3 <= MAX_BRANCHES &&
+           vec3_max_component(branch->throughput) > least_split_throughput;
+}
+
+/* ---- a path ---------------------------------------------------------------------------------- */
+
+static bool survives_roulette(ppmi_walker *walker, eye_branch *branch)
+{
+    if (branch->depth < ROULETTE_DEPTH) return true;
+    const float importance = vec3_max_component(branch->throughput) / branch->eta_scale;
+    const float survival = ppmi_min(1.0f, importance);
+    if (ppmi_rng_float(&walker->rng) >= survival) return false;
+    branch->throughput = vec3_scale(branch->throughput, 1.0f / survival);
+    branch->light_throughput = vec3_scale(branch->light_throughput, 1.0f / survival);
+    return true;
+}
+
+static ppmi_vec3 sky(const eye_path *path, const eye_branch *branch)
+{
+    if (branch->depth == 0) {
+        return ppmi_lights_backdrop(path->walker->world->lights, branch->ray.direction);
+    }
+    return ppmi_walk_environment(path->walker, branch->ray.direction, &branch->origin);
+}
+
+/* To the branch's next vertex, with the light that is met there. False where the branch ends. */
+static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
+{
+    ppmi_walker *walker = path->walker;
+    const ppmi_ray_kind kind = branch->depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
+    const ppmi_arrival arrival = ppmi_walk(walker, branch->ray, kind, &at->vertex);
+    const ppmi_vec3 transmittance = at->vertex.transmittance;
+    branch->throughput = vec3_mul(branch->throughput, transmittance);
+    branch->light_throughput = vec3_mul(branch->light_throughput, transmittance);
+    if (arrival == PPMI_ESCAPED) {
+        add(path, branch->light_throughput, sky(path, branch));
         return false;
     }
-    const ppmi_vec3 weight = vec3_scale(sample.weight, 1.0f / probability);
-    state->light_throughput = state->throughput;
-    state->throughput = vec3_mul(state->throughput, weight);
-    state->origin = (ppmi_origin){.is_delta = sample.is_delta, .normal = bsdf->frame.n};
-    if (sample.is_delta) {
-        state->light_throughput = state->throughput;
-    } else {
-        state->origin.pdf = ppmi_bsdf_pdf(bsdf, sample.wi, PPMI_LOBE_ALL);
-        const ppmi_vec3 f =
-            ppmi_bsdf_eval(bsdf, albedo, sample.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
-        const float cosine = fabsf(ppmi_bsdf_cosine(bsdf, sample.wi));
-        state->light_throughput =
-            vec3_mul(state->light_throughput, vec3_scale(f, cosine / state->origin.pdf));
+    branch->cone_width += path->cone_spread * at->vertex.distance;
+    if (arrival == PPMI_AT_SURFACE) {
+        add(path, branch->light_throughput,
+            ppmi_walk_emission(walker, &at->vertex, branch->ray.direction, &branch->origin));
     }
-    state->ray = ppmi_surface_ray(&vertex->surface, sample.wi);
+    if (!survives_roulette(walker, branch)) return false;
+    ppmi_walk_bsdf(walker, &at->vertex, branch->ray.direction, &at->bsdf);
+    return at->bsdf.lobes != 0;
+}
+
+/* Follows a branch to its end. False when memory is out. */
+static bool follow(eye_path *path, eye_branch branch)
+{
+    eye_vertex at;
+    while (branch.depth < path->settings->max_depth && arrive(path, &branch, &at)) {
+        if (path->settings->samples_lights) {
+            add(path, branch.throughput,
+                ppmi_walk_light_sample(path->walker, &at.vertex, &at.bsdf));
+        }
+        const uint32_t others = (uint32_t)(at.bsdf.lobes & ~at.bsdf.gather_lobes);
+        const float gathering = ppmi_bsdf_probability(&at.bsdf, at.bsdf.gather_lobes);
+        if (may_split(path, &branch)) {
+            const bool is_split = others != 0;
+            split(path, &branch, &at, others);
+            return gathering <= 0.0f || gather(path, &branch, &at, 1.0f, is_split);
+        }
+        if (gathering > 0.0f && ppmi_walker_float(path->walker) < gathering) {
+            return gather(path, &branch, &at, gathering, false);
+        }
+        if (!go_on(path, &branch, &at, others, 1.0f - gathering)) return true;
+    }
     return true;
 }
 
-static bool survives_roulette(ppmi_walker *walker, eye_state *state, uint32_t depth)
+bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
+                   const ppmi_eye_settings *settings, uint32_t owner, ppmi_visible_points *points,
+                   ppmi_vec3 *radiance)
 {
-    if (depth < ROULETTE_DEPTH) return true;
-    const float survival = ppmi_min(1.0f, vec3_max_component(state->throughput));
-    if (ppmi_rng_float(&walker->rng) >= survival) return false;
-    state->throughput = vec3_scale(state->throughput, 1.0f / survival);
-    state->light_throughput = vec3_scale(state->light_throughput, 1.0f / survival);
-    return true;
-}
-
-ppmi_vec3 ppmi_eye_path(ppmi_walker *walker, const ppmi_camera_ray *camera_ray, uint32_t max_depth,
-                        ppmi_visible_points *points, uint32_t i)
-{
-    eye_state state = {
+    eye_path path;
+    path.context = context;
+    path.walker = walker;
+    path.settings = settings;
+    path.cone_spread = camera_ray->spread;
+    path.owner = owner;
+    path.points = points;
+    path.radiance = radiance;
+    path.waiting_count = 1;
+    path.waiting[0] = (eye_branch){
         .ray = camera_ray->ray,
         .origin = {.is_delta = true},
         .throughput = vec3_splat(1.0f),
         .light_throughput = vec3_splat(1.0f),
+        .eta_scale = 1.0f,
         .cone_width = camera_ray->base_width,
-        .cone_spread = camera_ray->spread,
+        .interior = walker->interior,
+        .wavelength_nm = walker->wavelength_nm,
     };
-    points->is_valid[i] = 0;
-    for (uint32_t depth = 0; depth < max_depth; depth++) {
-        ppmi_vertex vertex;
-        const ppmi_ray_kind kind = depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
-        if (!ppmi_walk_to_surface(walker, state.ray, kind, &vertex)) {
-            if (depth == 0) return ppmi_lights_backdrop(walker->world->lights, state.ray.direction);
-            add(&state, state.light_throughput,
-                ppmi_walk_environment(walker, state.ray.direction, &state.origin));
-            break;
-        }
-        state.cone_width += state.cone_spread * vertex.distance;
-        state.throughput = vec3_mul(state.throughput, vertex.transmittance);
-        state.light_throughput = vec3_mul(state.light_throughput, vertex.transmittance);
-        add(&state, state.light_throughput,
-            ppmi_walk_emission(walker, &vertex, state.ray.direction, &state.origin));
-        if (!survives_roulette(walker, &state, depth)) break;
-
-        ppmi_bsdf bsdf;
-        ppmi_walk_bsdf(walker, &vertex, state.ray.direction, &bsdf);
-        if (bsdf.lobes == 0) break;
-        add(&state, state.throughput, ppmi_walk_light_sample(walker, &vertex.surface, &bsdf));
-        const float gathering = ppmi_bsdf_probability(&bsdf, bsdf.gather_lobes);
-        if (gathering > 0.0f && ppmi_walker_float(walker) < gathering) {
-            add_bsdf_sampled_light(walker, &state, &vertex, &bsdf);
-            record(&state, &vertex, &bsdf, gathering, points, i);
-            break;
-        }
-        const uint32_t others = (uint32_t)(bsdf.lobes & ~bsdf.gather_lobes);
-        if (!go_on(walker, &state, &vertex, &bsdf, others, 1.0f - gathering)) break;
+    while (path.waiting_count > 0) {
+        const eye_branch branch = path.waiting[--path.waiting_count];
+        walker->interior = branch.interior;
+        walker->wavelength_nm = branch.wavelength_nm;
+        if (!follow(&path, branch)) return false;
     }
-    return state.radiance;
+    return true;
 }

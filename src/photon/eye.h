@@ -1,15 +1,26 @@
-/* The eye pass: camera paths through mirrors and glass to the first surface that gathers. */
+/* The eye pass: camera paths through mirrors and glass to the first surface, or scattering in a
+ * medium, that gathers. */
 #ifndef PPMI_PHOTON_EYE_H
 #define PPMI_PHOTON_EYE_H
 
 #include "camera/camera.h"
-#include "photon/gather.h"
+#include "photon/point.h"
 #include "transport/world.h"
 
+enum { PPMI_MAX_SPLIT_DEPTH = 12 };
+
+typedef struct ppmi_eye_settings {
+    uint32_t max_depth;
+    uint32_t split_depth; /* surfaces at which a path follows all its branches, at most
+                             PPMI_MAX_SPLIT_DEPTH; beyond, and with 0, one is drawn */
+    bool samples_lights;  /* else photons bring all light that is met where they are gathered */
+} ppmi_eye_settings;
+
 /* Follows one camera path. Light that needs no photons (emission, the environment, light sampling)
- * is returned; where the path ends at a gathering surface, slot i of points is filled, else marked
- * as not valid. */
-ppmi_vec3 ppmi_eye_path(ppmi_walker *walker, const ppmi_camera_ray *camera_ray, uint32_t max_depth,
-                        ppmi_visible_points *points, uint32_t i);
+ * is added to *radiance; visible points are appended to points, with owner: at most one without
+ * splitting. False when memory is out. */
+bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
+                   const ppmi_eye_settings *settings, uint32_t owner, ppmi_visible_points *points,
+                   ppmi_vec3 *radiance);
 
 #endif

@@ -1,7 +1,7 @@
 /* Density estimation at a visible point.
  *
- * Kernel: Epanechnikov's, 2 (1 - d^2/r^2), whose mean over the disk is 1 (docs/transport.md has the
- * comparison with the constant one). */
+ * Kernel: Epanechnikov's, 1 - d^2/r^2 times what makes its mean 1 over the disk or the ball
+ * (docs/transport.md has the comparison with the constant one). */
 #include "photon/gather.h"
 
 /* A photon further off the tangent plane than this share of the radius lies on something else:
@@ -12,38 +12,7 @@ static const float normal_tolerance = 0.7f;
 
 enum { CANDIDATES = 64 };
 
-ppm_status ppmi_visible_points_init(ppm_context *context, ppmi_visible_points *points,
-                                    uint32_t capacity)
-{
-    *points = (ppmi_visible_points){
-        .capacity = capacity,
-        .is_valid = ppmi_alloc(context, capacity, sizeof *points->is_valid),
-        .x = ppmi_alloc(context, capacity, sizeof *points->x),
-        .y = ppmi_alloc(context, capacity, sizeof *points->y),
-        .z = ppmi_alloc(context, capacity, sizeof *points->z),
-        .footprint = ppmi_alloc(context, capacity, sizeof *points->footprint),
-        .throughput = ppmi_alloc(context, capacity, sizeof *points->throughput),
-        .bsdf = ppmi_alloc(context, capacity, sizeof *points->bsdf),
-    };
-    if (points->is_valid && points->x && points->y && points->z && points->footprint &&
-        points->throughput && points->bsdf) {
-        return PPM_STATUS_OK;
-    }
-    ppmi_visible_points_deinit(context, points);
-    return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: visible points");
-}
-
-void ppmi_visible_points_deinit(ppm_context *context, ppmi_visible_points *points)
-{
-    ppmi_free(context, points->is_valid);
-    ppmi_free(context, points->x);
-    ppmi_free(context, points->y);
-    ppmi_free(context, points->z);
-    ppmi_free(context, points->footprint);
-    ppmi_free(context, points->throughput);
-    ppmi_free(context, points->bsdf);
-    *points = (ppmi_visible_points){0};
-}
+static const float disk_kernel = 2.0f, ball_kernel = 2.5f;
 
 /* Photons arrive by the geometric normal's cosine, the BSDF means the shading normal's. */
 static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
@@ -55,11 +24,14 @@ static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 static void add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
                        const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered)
 {
-    if (vec3_dot(photon->ng, bsdf->ng) < normal_tolerance) return;
+    const bool is_phase = ppmi_bsdf_is_phase(bsdf);
+    if (!is_phase) {
+        if (vec3_dot(photon->ng, bsdf->ng) < normal_tolerance) return;
+        kernel *= cosine_ratio(bsdf, photon->wi);
+    }
     const ppmi_vec3 f =
         ppmi_bsdf_eval(bsdf, albedo, photon->wi, bsdf->gather_lobes, PPMI_TRANSPORT_RADIANCE);
-    const ppmi_vec3 contribution =
-        vec3_scale(vec3_mul(f, photon->power), kernel * cosine_ratio(bsdf, photon->wi));
+    const ppmi_vec3 contribution = vec3_scale(vec3_mul(f, photon->power), kernel);
     if (vec3_is_black(contribution)) return;
     gathered->flux = vec3_add(gathered->flux, contribution);
     gathered->count += 1.0f;
@@ -90,13 +62,16 @@ static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint3
 }
 
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_points *points, uint32_t i, float radius)
+                          const ppmi_visible_point *point, float radius)
 {
-    const ppmi_vec3 p = vec3(points->x[i], points->y[i], points->z[i]);
-    const ppmi_bsdf *bsdf = &points->bsdf[i];
-    const float radius2 = radius * radius, thickness = radius * plane_tolerance;
+    const ppmi_bsdf *bsdf = &point->bsdf;
+    const bool is_phase = ppmi_bsdf_is_phase(bsdf);
+    const float radius2 = radius * radius;
+    const float thickness = is_phase ? INFINITY : radius * plane_tolerance;
+    const float kernel = is_phase ? ball_kernel : disk_kernel;
     ppmi_photon_run runs[PPMI_GRID_MAX_RUNS];
-    const uint32_t run_count = ppmi_photon_grid_lookup(grid, p, radius, bsdf->ng, thickness, runs);
+    const uint32_t run_count =
+        ppmi_photon_grid_lookup(grid, point->position, radius, bsdf->ng, thickness, runs);
     ppmi_gathered gathered = {0};
     for (uint32_t r = 0; r < run_count; r++) {
         for (uint32_t begin = runs[r].begin; begin < runs[r].end; begin += CANDIDATES) {
@@ -104,11 +79,11 @@ ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table 
             const uint32_t count = left < CANDIDATES ? left : CANDIDATES;
             uint32_t indices[CANDIDATES];
             float distances2[CANDIDATES];
-            const uint32_t selected = select_block(grid, begin, count, p, bsdf->ng, radius2,
-                                                   thickness, indices, distances2);
+            const uint32_t selected = select_block(grid, begin, count, point->position, bsdf->ng,
+                                                   radius2, thickness, indices, distances2);
             for (uint32_t k = 0; k < selected; k++) {
-                const float kernel = 2.0f * (1.0f - distances2[k] / radius2);
-                add_photon(&grid->payloads[indices[k]], bsdf, albedo, kernel, &gathered);
+                add_photon(&grid->payloads[indices[k]], bsdf, albedo,
+                           kernel * (1.0f - distances2[k] / radius2), &gathered);
             }
         }
     }

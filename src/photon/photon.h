@@ -7,13 +7,18 @@
 #include "base/context.h"
 #include "math/vec.h"
 
-/* A photon at a surface that can gather. power is unnormalised: divide by the photons emitted. */
+/* A photon at a surface that can gather, or where a medium scatters it. power is unnormalised:
+ * divide by the photons emitted. In a medium it is power by extinction coefficient (power times
+ * metres): the photons' density by volume times it is the fluence. */
 typedef struct ppmi_photon {
     ppmi_vec3 position;
     ppmi_vec3 wi; /* where it came from, unit */
     ppmi_vec3 power;
-    ppmi_vec3 ng; /* geometric normal there, on wi's side */
+    ppmi_vec3 ng; /* geometric normal there, on wi's side; 0 in a medium */
 } ppmi_photon;
+
+/* Photons at surfaces are found in disks, those in media in balls: kept apart. */
+enum { PPMI_PHOTONS_SURFACE = 0, PPMI_PHOTONS_VOLUME = 1, PPMI_PHOTON_KINDS = 2 };
 
 /* A list that grows by doubling and keeps its memory from pass to pass. */
 typedef struct ppmi_photon_list {

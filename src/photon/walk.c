@@ -13,8 +13,8 @@ enum { CHUNK = 512 };
 enum { STRATIFIED_SETS = 2 };
 
 typedef struct ppmi_photon_chunk {
-    uint32_t list; /* thread that walked it */
-    size_t begin, count;
+    uint32_t thread; /* that walked it */
+    size_t begin[PPMI_PHOTON_KINDS], count[PPMI_PHOTON_KINDS];
 } ppmi_photon_chunk;
 
 /* Radiance carries the shading normal's cosine, photons the geometric one's: the factor that makes
@@ -26,9 +26,10 @@ static float shading_normal_factor(const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_vec
     return denominator > 1e-8f ? ppmi_min(numerator / denominator, 1e2f) : 1.0f;
 }
 
-/* One bounce; false when the photon ends. Roulette keeps the power of survivors where it was. */
-static bool bounce(ppmi_walker *walker, const ppmi_bsdf *bsdf, const ppmi_surface *surface,
-                   ppmi_ray *ray, ppmi_vec3 *power)
+/* One bounce; false when the photon ends. Roulette keeps the power of survivors at what it was
+ * before the way here: absorption on the way counts too. */
+static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
+                   float power_before, ppmi_ray *ray, ppmi_vec3 *power)
 {
     const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
                 v = ppmi_walker_float(walker);
@@ -37,16 +38,18 @@ static bool bounce(ppmi_walker *walker, const ppmi_bsdf *bsdf, const ppmi_surfac
                         v, &sample)) {
         return false;
     }
-    const float factor = shading_normal_factor(bsdf, vec3_neg(ray->direction), sample.wi);
-    const ppmi_vec3 next = vec3_scale(vec3_mul(*power, sample.weight), factor);
-    const float survival = ppmi_min(1.0f, vec3_max_component(next) / vec3_max_component(*power));
+    ppmi_vec3 next = vec3_mul(*power, sample.weight);
+    if (!vertex->medium) {
+        next = vec3_scale(next, shading_normal_factor(bsdf, vec3_neg(ray->direction), sample.wi));
+    }
+    const float survival = ppmi_min(1.0f, vec3_max_component(next) / power_before);
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
     *power = vec3_scale(next, 1.0f / survival);
-    *ray = ppmi_surface_ray(surface, sample.wi);
+    *ray = ppmi_walk_leave(walker, vertex, &sample, power);
     return true;
 }
 
-static bool store(ppm_context *context, ppmi_photon_list *list, const ppmi_vertex *vertex,
+static bool store(ppm_context *context, ppmi_photon_list *lists, const ppmi_vertex *vertex,
                   const ppmi_bsdf *bsdf, const ppmi_ray *ray, ppmi_vec3 power)
 {
     const ppmi_photon photon = {
@@ -55,33 +58,35 @@ static bool store(ppm_context *context, ppmi_photon_list *list, const ppmi_verte
         .power = power,
         .ng = bsdf->ng,
     };
-    return ppmi_photon_list_push(context, list, &photon);
+    const int kind = vertex->medium ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
+    return ppmi_photon_list_push(context, &lists[kind], &photon);
 }
 
 /* Follows one photon to its end. False when memory is out. */
-static bool walk_photon(ppm_context *context, ppmi_walker *walker, ppmi_emission emission,
-                        uint32_t max_depth, ppmi_photon_list *list)
+static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi_walker *walker,
+                        ppmi_emission emission, ppmi_photon_list *lists)
 {
     ppmi_ray ray = emission.ray;
     ppmi_vec3 power = emission.power;
-    for (uint32_t depth = 0; depth < max_depth; depth++) {
+    for (uint32_t depth = 0; depth < walk->max_depth; depth++) {
         ppmi_vertex vertex;
-        if (!ppmi_walk_to_surface(walker, ray, PPMI_RAY_OTHER, &vertex)) return true;
+        if (ppmi_walk(walker, ray, PPMI_RAY_OTHER, &vertex) == PPMI_ESCAPED) return true;
+        const float power_before = vec3_max_component(power);
         power = vec3_mul(power, vertex.transmittance);
         if (vec3_is_black(power)) return true;
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
-        if (depth > 0 && bsdf.gather_lobes != 0 &&
-            !store(context, list, &vertex, &bsdf, &ray, power)) {
+        if (depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
+            !store(context, lists, &vertex, &bsdf, &ray, power)) {
             return false;
         }
-        if (!bounce(walker, &bsdf, &vertex.surface, &ray, &power)) return true;
+        if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power)) return true;
     }
     return true;
 }
 
 static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint32_t begin,
-                       uint32_t end, ppmi_photon_list *list, uint64_t *rays)
+                       uint32_t end, ppmi_photon_list *lists, uint64_t *rays)
 {
     ppmi_walker walker = {.world = walk->world};
     for (uint32_t i = begin; i < end; i++) {
@@ -96,7 +101,8 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
             u[k] = ppmi_walker_float(&walker);
         ppmi_emission emission;
         if (!ppmi_lights_emit(walk->world->lights, pick, u, &emission)) continue;
-        if (!walk_photon(context, &walker, emission, walk->max_depth, list)) return false;
+        emission.ray.time = walker.time;
+        if (!walk_photon(context, walk, &walker, emission, lists)) return false;
     }
     *rays += walker.rays;
     return true;
@@ -117,59 +123,70 @@ static ppm_status prepare(ppm_context *context, const ppmi_photon_walk *walk, ui
     if (!scratch->lists || !scratch->chunks) {
         return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: photon lists");
     }
-    for (uint32_t i = 0; i < scratch->list_count; i++)
-        scratch->lists[i].count = 0;
+    for (uint32_t i = 0; i < scratch->list_count; i++) {
+        for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
+            scratch->lists[i][kind].count = 0;
+    }
     return PPM_STATUS_OK;
 }
 
 /* Appends the chunks in order of emission. */
 static ppm_status collect(ppm_context *context, const ppmi_photon_scratch *scratch,
-                          uint32_t chunk_count, ppmi_photon_list *out_photons)
+                          uint32_t chunk_count, int kind, ppmi_photon_list *out_photons)
 {
     size_t total = out_photons->count;
     for (uint32_t i = 0; i < chunk_count; i++)
-        total += scratch->chunks[i].count;
+        total += scratch->chunks[i].count[kind];
     if (!ppmi_photon_list_reserve(context, out_photons, total)) {
         return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu photons", total);
     }
     for (uint32_t i = 0; i < chunk_count; i++) {
         const ppmi_photon_chunk *chunk = &scratch->chunks[i];
-        if (chunk->count == 0) continue;
+        if (chunk->count[kind] == 0) continue;
         memcpy(out_photons->photons + out_photons->count,
-               scratch->lists[chunk->list].photons + chunk->begin,
-               chunk->count * sizeof *out_photons->photons);
-        out_photons->count += chunk->count;
+               scratch->lists[chunk->thread][kind].photons + chunk->begin[kind],
+               chunk->count[kind] * sizeof *out_photons->photons);
+        out_photons->count += chunk->count[kind];
     }
     return PPM_STATUS_OK;
 }
 
+/* One chunk by the calling thread. False when memory is out. */
+static bool run_chunk(ppm_context *context, const ppmi_photon_walk *walk,
+                      const ppmi_photon_scratch *scratch, uint32_t index, uint64_t *rays)
+{
+    const uint32_t thread = (uint32_t)omp_get_thread_num();
+    ppmi_photon_list *lists = scratch->lists[thread];
+    ppmi_photon_chunk *chunk = &scratch->chunks[index];
+    const uint32_t begin = index * CHUNK;
+    const uint32_t end = walk->count - begin < CHUNK ? walk->count : begin + CHUNK;
+    chunk->thread = thread;
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
+        chunk->begin[kind] = lists[kind].count;
+    const bool is_done = walk_chunk(context, walk, begin, end, lists, rays);
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
+        chunk->count[kind] = lists[kind].count - chunk->begin[kind];
+    return is_done;
+}
+
 ppm_status ppmi_photon_walk_run(ppm_context *context, const ppmi_photon_walk *walk,
-                                ppmi_photon_scratch *scratch, ppmi_photon_list *out_photons,
-                                uint64_t *out_rays)
+                                ppmi_photon_scratch *scratch,
+                                ppmi_photon_list out_photons[PPMI_PHOTON_KINDS], uint64_t *out_rays)
 {
     const uint32_t chunk_count = (walk->count + CHUNK - 1) / CHUNK;
     if (chunk_count == 0) return PPM_STATUS_OK;
-    const ppm_status status = prepare(context, walk, chunk_count, scratch);
+    ppm_status status = prepare(context, walk, chunk_count, scratch);
     if (status != PPM_STATUS_OK) return status;
     uint64_t rays = 0;
     atomic_bool failed = false;
-#pragma omp parallel num_threads((int)walk->threads) reduction(+ : rays)
-    {
-        const uint32_t thread = (uint32_t)omp_get_thread_num();
-        ppmi_photon_list *list = &scratch->lists[thread];
-#pragma omp for schedule(dynamic, 1)
-        for (uint32_t c = 0; c < chunk_count; c++) {
-            if (atomic_load_explicit(walk->cancel, memory_order_relaxed) ||
-                atomic_load_explicit(&failed, memory_order_relaxed)) {
-                continue;
-            }
-            const uint32_t begin = c * CHUNK;
-            const uint32_t end = walk->count - begin < CHUNK ? walk->count : begin + CHUNK;
-            const size_t first = list->count;
-            if (!walk_chunk(context, walk, begin, end, list, &rays)) {
-                atomic_store_explicit(&failed, true, memory_order_relaxed);
-            }
-            scratch->chunks[c] = (ppmi_photon_chunk){thread, first, list->count - first};
+#pragma omp parallel for num_threads((int)walk->threads) reduction(+ : rays) schedule(dynamic, 1)
+    for (uint32_t c = 0; c < chunk_count; c++) {
+        if (atomic_load_explicit(walk->cancel, memory_order_relaxed) ||
+            atomic_load_explicit(&failed, memory_order_relaxed)) {
+            continue;
+        }
+        if (!run_chunk(context, walk, scratch, c, &rays)) {
+            atomic_store_explicit(&failed, true, memory_order_relaxed);
         }
     }
     *out_rays += rays;
@@ -177,13 +194,18 @@ ppm_status ppmi_photon_walk_run(ppm_context *context, const ppmi_photon_walk *wa
     if (atomic_load(&failed)) {
         return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: photons");
     }
-    return collect(context, scratch, chunk_count, out_photons);
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS && status == PPM_STATUS_OK; kind++) {
+        status = collect(context, scratch, chunk_count, kind, &out_photons[kind]);
+    }
+    return status;
 }
 
 void ppmi_photon_scratch_deinit(ppm_context *context, ppmi_photon_scratch *scratch)
 {
     for (uint32_t i = 0; i < scratch->list_count; i++) {
-        ppmi_photon_list_deinit(context, &scratch->lists[i]);
+        for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++) {
+            ppmi_photon_list_deinit(context, &scratch->lists[i][kind]);
+        }
     }
     ppmi_free(context, scratch->lists);
     ppmi_free(context, scratch->chunks);

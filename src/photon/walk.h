@@ -13,13 +13,15 @@ typedef struct ppmi_photon_walk {
     uint64_t first_index; /* of this call's first photon in the whole render */
     uint32_t count;       /* photons to emit */
     uint32_t max_depth;
+    uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
+                             a light to light sampling, 0 keeps it */
     uint32_t threads;
     const atomic_bool *cancel;
 } ppmi_photon_walk;
 
 /* Scratch of the walk, kept between passes. */
 typedef struct ppmi_photon_scratch {
-    ppmi_photon_list *lists; /* one a thread */
+    ppmi_photon_list (*lists)[PPMI_PHOTON_KINDS]; /* one of each kind a thread */
     uint32_t list_count;
     struct ppmi_photon_chunk *chunks;
     uint32_t chunk_capacity;
@@ -27,12 +29,12 @@ typedef struct ppmi_photon_scratch {
 
 void ppmi_photon_scratch_deinit(ppm_context *context, ppmi_photon_scratch *scratch);
 
-/* Emits count photons and appends those that land on gathering surfaces, after at least one bounce
- * (what comes straight from a light is left to light sampling), to out_photons, in the order of
- * emission whatever the number of threads. Adds to *out_rays.
- * Returns OK, CANCELLED, OUT_OF_MEMORY. */
+/* Emits count photons and appends those that land on gathering surfaces or are scattered in media
+ * to the list of their kind, in the order of emission whatever the number of threads. Adds to
+ * *out_rays. Returns OK, CANCELLED, OUT_OF_MEMORY. */
 ppm_status ppmi_photon_walk_run(ppm_context *context, const ppmi_photon_walk *walk,
-                                ppmi_photon_scratch *scratch, ppmi_photon_list *out_photons,
+                                ppmi_photon_scratch *scratch,
+                                ppmi_photon_list out_photons[PPMI_PHOTON_KINDS],
                                 uint64_t *out_rays);
 
 #endif

@@ -43,6 +43,7 @@ typedef struct ppmi_integrator {
 } ppmi_integrator;
 
 extern const ppmi_integrator ppmi_integrator_sppm;
+extern const ppmi_integrator ppmi_integrator_ppm;
 extern const ppmi_integrator ppmi_integrator_path;
 
 /* Images are worked on in tiles of this side, which threads take one by one. */

@@ -38,35 +38,46 @@ static ppm_status path_create(const ppmi_job *job, void **out_state)
     return PPM_STATUS_OK;
 }
 
-static bool survives(ppmi_walker *walker, ppmi_vec3 *throughput, uint32_t depth)
+/* eta_scale: of the throughput by refraction; a path in glass is not worth less for it. */
+static bool survives(ppmi_walker *walker, ppmi_vec3 *throughput, float eta_scale, uint32_t depth)
 {
     if (depth < ROULETTE_DEPTH) return true;
-    const float survival = ppmi_min(1.0f, vec3_max_component(*throughput));
+    const float survival = ppmi_min(1.0f, vec3_max_component(*throughput) / eta_scale);
     if (ppmi_rng_float(&walker->rng) >= survival) return false;
     *throughput = vec3_scale(*throughput, 1.0f / survival);
     return true;
+}
+
+static ppmi_vec3 sky(const ppmi_walker *walker, ppmi_vec3 direction, uint32_t depth,
+                     const ppmi_origin *origin)
+{
+    return depth == 0 ? ppmi_lights_backdrop(walker->world->lights, direction)
+                      : ppmi_walk_environment(walker, direction, origin);
 }
 
 static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_depth)
 {
     ppmi_vec3 radiance = vec3_splat(0.0f), throughput = vec3_splat(1.0f);
     ppmi_origin origin = {.is_delta = true};
+    float eta_scale = 1.0f;
     for (uint32_t depth = 0; depth < max_depth; depth++) {
         ppmi_vertex vertex;
         const ppmi_ray_kind kind = depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
-        if (!ppmi_walk_to_surface(walker, ray, kind, &vertex)) {
-            if (depth == 0) return ppmi_lights_backdrop(walker->world->lights, ray.direction);
-            const ppmi_vec3 sky = ppmi_walk_environment(walker, ray.direction, &origin);
-            return vec3_add(radiance, vec3_mul(throughput, sky));
-        }
+        const ppmi_arrival arrival = ppmi_walk(walker, ray, kind, &vertex);
         throughput = vec3_mul(throughput, vertex.transmittance);
-        const ppmi_vec3 emission = ppmi_walk_emission(walker, &vertex, ray.direction, &origin);
-        radiance = vec3_add(radiance, vec3_mul(throughput, emission));
-        if (!survives(walker, &throughput, depth)) return radiance;
+        if (arrival == PPMI_ESCAPED) {
+            const ppmi_vec3 light = sky(walker, ray.direction, depth, &origin);
+            return vec3_add(radiance, vec3_mul(throughput, light));
+        }
+        if (arrival == PPMI_AT_SURFACE) {
+            const ppmi_vec3 emission = ppmi_walk_emission(walker, &vertex, ray.direction, &origin);
+            radiance = vec3_add(radiance, vec3_mul(throughput, emission));
+        }
+        if (!survives(walker, &throughput, eta_scale, depth)) return radiance;
 
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
-        const ppmi_vec3 light = ppmi_walk_light_sample(walker, &vertex.surface, &bsdf);
+        const ppmi_vec3 light = ppmi_walk_light_sample(walker, &vertex, &bsdf);
         radiance = vec3_add(radiance, vec3_mul(throughput, light));
         const float u_lobe = ppmi_walker_float(walker);
         const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
@@ -76,9 +87,10 @@ static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_dept
             return radiance;
         }
         throughput = vec3_mul(throughput, sample.weight);
-        origin =
-            (ppmi_origin){.pdf = sample.pdf, .normal = bsdf.frame.n, .is_delta = sample.is_delta};
-        ray = ppmi_surface_ray(&vertex.surface, sample.wi);
+        eta_scale *= sample.eta_scale;
+        origin = (ppmi_origin){
+            .pdf = sample.pdf, .normal = ppmi_bsdf_normal(&bsdf), .is_delta = sample.is_delta};
+        ray = ppmi_walk_leave(walker, &vertex, &sample, &throughput);
     }
     return radiance;
 }

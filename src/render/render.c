@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include "photon/eye.h"
 #include "render/integrator.h"
 
 struct ppm_render {
@@ -12,6 +13,7 @@ struct ppm_render {
     ppmi_accel *accel;
     ppmi_lights *lights;
     ppmi_albedo_table *albedo;
+    ppmi_spectrum *spectrum;
     const ppmi_integrator *integrator;
     void *state;
     ppmi_job job;
@@ -66,9 +68,28 @@ static ppm_status check_options(const ppm_scene *scene, const ppm_render_options
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "size %ux%u: more than %u a side",
                          options->width, options->height, largest_side);
     }
-    if (options->integrator < PPM_INTEGRATOR_DEFAULT || options->integrator > PPM_INTEGRATOR_PATH) {
+    if (options->integrator < PPM_INTEGRATOR_DEFAULT || options->integrator > PPM_INTEGRATOR_PPM) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "no integrator of number %d",
                          (int)options->integrator);
+    }
+    if (options->schedule < PPM_SCHEDULE_DEFAULT || options->schedule > PPM_SCHEDULE_MEMORYLESS ||
+        options->direct < PPM_DIRECT_DEFAULT || options->direct > PPM_DIRECT_PHOTONS) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "no schedule of number %d, or no direct light of number %d",
+                         (int)options->schedule, (int)options->direct);
+    }
+    if (options->schedule == PPM_SCHEDULE_MEMORYLESS &&
+        options->integrator != PPM_INTEGRATOR_DEFAULT &&
+        options->integrator != PPM_INTEGRATOR_SPPM) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "the memoryless schedule needs the integrator sppm");
+    }
+    if (options->photons_per_epoch > 0 && options->integrator != PPM_INTEGRATOR_PPM) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "epochs need the integrator ppm");
+    }
+    if (options->split_depth > PPMI_MAX_SPLIT_DEPTH) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "split depth %d: at most %d",
+                         (int)options->split_depth, PPMI_MAX_SPLIT_DEPTH);
     }
     if (options->photons_per_pass > (uint64_t)1 << 30) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
@@ -109,6 +130,9 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
         const uint64_t least = 262144, most = (uint64_t)1 << 22;
         resolved.photons_per_pass = pixels < least ? least : pixels > most ? most : pixels;
     }
+    if (resolved.schedule == PPM_SCHEDULE_DEFAULT) resolved.schedule = PPM_SCHEDULE_PROGRESSIVE;
+    if (resolved.direct == PPM_DIRECT_DEFAULT) resolved.direct = PPM_DIRECT_SAMPLE;
+    if (resolved.split_depth == 0) resolved.split_depth = 4;
     if (resolved.max_depth == 0) resolved.max_depth = 32;
     if (resolved.alpha == 0.0f) resolved.alpha = 2.0f / 3.0f;
     if (resolved.threads == 0) resolved.threads = (uint32_t)omp_get_num_procs();
@@ -149,26 +173,32 @@ static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *opt
     return status;
 }
 
-static bool any_material_has_alpha(const ppm_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        if (scene->materials[i].has_alpha) return true;
-    }
-    return false;
-}
-
 static ppm_status build_world(ppm_render *render)
 {
     render->albedo = ppmi_alloc(render->context, 1, sizeof *render->albedo);
-    if (!render->albedo) {
+    render->spectrum = ppmi_alloc(render->context, 1, sizeof *render->spectrum);
+    if (!render->albedo || !render->spectrum) {
         return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: tables");
     }
     ppmi_albedo_table_init(render->albedo);
+    ppmi_spectrum_init(render->spectrum);
     ppm_status status = ppmi_accel_create(render->context, render->scene, &render->accel);
     if (status == PPM_STATUS_OK) {
         status = ppmi_lights_create(render->context, render->scene, &render->lights);
     }
     return status;
+}
+
+static const ppmi_integrator *integrator_of(int32_t number)
+{
+    switch (number) {
+    case PPM_INTEGRATOR_PATH:
+        return &ppmi_integrator_path;
+    case PPM_INTEGRATOR_PPM:
+        return &ppmi_integrator_ppm;
+    default:
+        return &ppmi_integrator_sppm;
+    }
 }
 
 static ppm_status start(ppm_render *render)
@@ -179,19 +209,15 @@ static ppm_status start(ppm_render *render)
     render->job = (ppmi_job){
         .context = render->context,
         .options = &render->options,
-        .world = {.scene = render->scene,
-                  .accel = render->accel,
-                  .lights = render->lights,
-                  .albedo = render->albedo,
-                  .has_alpha = any_material_has_alpha(render->scene)},
         .cancel = &render->cancel,
     };
+    ppmi_world_init(&render->job.world, render->scene, render->accel, render->lights,
+                    render->albedo, render->spectrum);
     const uint32_t *crop = render->options.crop;
     render->job.film = (ppmi_film){crop[0], crop[1], crop[2] - crop[0], crop[3] - crop[1]};
     ppmi_camera_view_init(&render->scene->cameras[render->options.camera - 1],
                           render->options.width, render->options.height, &render->job.view);
-    render->integrator = render->options.integrator == PPM_INTEGRATOR_PATH ? &ppmi_integrator_path
-                                                                           : &ppmi_integrator_sppm;
+    render->integrator = integrator_of(render->options.integrator);
     render->stats.size = sizeof render->stats;
     render->stats.threads = render->options.threads;
     render->stats.seconds_build = omp_get_wtime() - begin;
@@ -234,6 +260,7 @@ void ppm_render_destroy(ppm_render *render)
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);
     ppmi_free(render->context, render->albedo);
+    ppmi_free(render->context, render->spectrum);
     ppmi_free(render->context, render);
 }
 

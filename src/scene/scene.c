@@ -206,6 +206,18 @@ static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc 
     return PPM_STATUS_OK;
 }
 
+/* Beer-Lambert by KHR_materials_volume: sigma_a = -ln(attenuationColor) / attenuationDistance. */
+static ppmi_medium medium_inside(const ppm_material_desc *desc)
+{
+    const float distance = desc->attenuation_distance_m;
+    if (!(distance > 0.0f) || isinf(distance)) return (ppmi_medium){0};
+    float sigma_a[3];
+    for (int i = 0; i < 3; i++) { /* black would be infinite */
+        sigma_a[i] = -logf(ppmi_max(desc->attenuation_color[i], 1e-30f)) / distance;
+    }
+    return (ppmi_medium){.sigma_a = vec3_load(sigma_a)};
+}
+
 ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *desc,
                                   ppm_material_id *out_id)
 {
@@ -231,6 +243,7 @@ ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *des
     material->has_alpha = desc->alpha_mode != PPM_ALPHA_OPAQUE;
     material->is_solid_glass =
         desc->transmission > 0.0f && desc->transmission_kind == PPM_TRANSMISSION_SOLID;
+    if (material->is_solid_glass) material->inside = medium_inside(desc);
     *out_id = ++scene->material_count;
     return PPM_STATUS_OK;
 }
@@ -267,7 +280,7 @@ ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "fog: coefficients must be at least 0 per metre, g between -1 and 1");
     }
-    scene->fog = (ppmi_fog){
+    scene->fog = (ppmi_medium){
         .sigma_s = vec3_load(desc->sigma_s),
         .sigma_a = vec3_load(desc->sigma_a),
         .asymmetry_g = desc->asymmetry_g,

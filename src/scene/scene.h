@@ -24,12 +24,19 @@ typedef struct ppmi_image {
     bool is_srgb; /* u8 holds sRGB-encoded colour */
 } ppmi_image;
 
+/* What fills the space between surfaces, homogeneous; all 0: nothing. */
+typedef struct ppmi_medium {
+    ppmi_vec3 sigma_s, sigma_a; /* scattering and absorption coefficients, 1/m */
+    float asymmetry_g;          /* Henyey-Greenstein */
+} ppmi_medium;
+
 typedef struct ppmi_material {
     char *name;
     ppm_material_desc desc; /* desc.name is not used */
     bool emits;             /* emission is not black */
     bool has_alpha;         /* MASK or BLEND: a ray may pass */
     bool is_solid_glass;    /* transmissive, bounds a solid */
+    ppmi_medium inside;     /* of the solid */
 } ppmi_material;
 
 /* Triangles with one material. positions have 16 bytes of padding behind them, as Embree reads the
@@ -89,11 +96,6 @@ typedef struct ppmi_environment {
     ppmi_vec3 backdrop;
 } ppmi_environment;
 
-typedef struct ppmi_fog {
-    ppmi_vec3 sigma_s, sigma_a; /* 1/m; all 0: none */
-    float asymmetry_g;
-} ppmi_fog;
-
 struct ppm_scene {
     ppm_context *context;
     float srgb_to_linear[256];
@@ -105,7 +107,7 @@ struct ppm_scene {
     ppmi_camera *cameras;
     ppmi_punctual *punctuals;
     ppmi_environment environment;
-    ppmi_fog fog;
+    ppmi_medium fog;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
     ppmi_vec3 shift; /* what has been subtracted from all positions; see ppmi_scene_freeze */
     bool is_frozen;

@@ -20,13 +20,6 @@ static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
     return pair.a * f0 + pair.b * f90;
 }
 
-/* The index of KHR_materials_ior; its 0 means a Fresnel term of 1 throughout, which a huge index
- * comes close to. */
-static float index_of(float ior)
-{
-    return ior == 0.0f ? 1e4f : ppmi_max(ior, 1.0f);
-}
-
 static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average,
                       const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque)
 {
@@ -75,14 +68,15 @@ static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_
 /* The index ratio and roughness of the glass lobe. */
 static void make_glass(ppmi_bsdf *bsdf, const ppmi_material_point *point, bool is_outside)
 {
-    const float index = index_of(point->ior);
+    const float index = ppmi_dielectric_index(point->ior);
     bsdf->is_thin = point->is_thin;
     bsdf->glass_weight = point->transmission * (1.0f - point->metallic);
     bsdf->tint = point->base_color;
     bsdf->eta = is_outside || point->is_thin ? index : 1.0f / index;
+    if (point->relative_index > 0.0f && !point->is_thin) bsdf->eta = point->relative_index;
     bsdf->glass_alpha = bsdf->alpha;
     /* without an index step there is no half vector: the ray goes straight on */
-    if (fabsf(index - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
+    if (fabsf(bsdf->eta - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
 }
 
 /* Nothing reflects but the diffuse base: the albedo table is not needed. */
@@ -115,7 +109,7 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     bsdf->roughness = point->roughness;
     bsdf->alpha = point->roughness * point->roughness;
 
-    const float index = index_of(point->ior);
+    const float index = ppmi_dielectric_index(point->ior);
     const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
     const ppmi_vec3 dielectric_f0 =
         vec3(ppmi_min(r0 * point->specular_color.x, 1.0f) * point->specular,
@@ -136,6 +130,19 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     }
     make_wide(bsdf, at_o, average, &opaque_point, dielectric_f0, opaque);
     make_lobe_masks(bsdf, at_o, average);
+}
+
+void ppmi_bsdf_make_phase(const ppmi_medium *medium, ppmi_vec3 wo, ppmi_bsdf *out_bsdf)
+{
+    *out_bsdf = (ppmi_bsdf){
+        .frame = ppmi_frame_from_normal(vec3_neg(wo)),
+        .wo = {0.0f, 0.0f, -1.0f},
+        .sigma_s = medium->sigma_s,
+        .asymmetry_g = medium->asymmetry_g,
+        .lobe_probability = {[3] = 1.0f},
+        .lobes = PPMI_LOBE_PHASE,
+        .gather_lobes = PPMI_LOBE_PHASE,
+    };
 }
 
 /* ---- evaluation ------------------------------------------------------------------------------ */
@@ -210,6 +217,13 @@ static float glass_jacobian(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 h)
            ppmi_max(denominator * denominator, 1e-12f);
 }
 
+/* Radiance is squeezed into a smaller cone where it enters a denser solid, power is not. */
+static float transmitted_scale(const ppmi_bsdf *bsdf, ppmi_transport transport)
+{
+    if (transport != PPMI_TRANSPORT_RADIANCE || bsdf->is_thin) return 1.0f;
+    return 1.0f / (bsdf->eta * bsdf->eta);
+}
+
 static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
 {
     const bool is_transmission = wi.z < 0.0f;
@@ -224,10 +238,8 @@ static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport 
     const float common = bsdf->glass_weight * d * g * cos_oh * glass_jacobian(bsdf, folded, h) /
                          (bsdf->wo.z * fabsf(wi.z));
     if (!is_transmission) return vec3_splat(common * reflectance);
-    const float radiance_scale = transport == PPMI_TRANSPORT_RADIANCE && !bsdf->is_thin
-                                     ? 1.0f / (bsdf->eta * bsdf->eta)
-                                     : 1.0f;
-    return vec3_scale(bsdf->tint, common * (1.0f - reflectance) * radiance_scale);
+    return vec3_scale(bsdf->tint,
+                      common * (1.0f - reflectance) * transmitted_scale(bsdf, transport));
 }
 
 static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
@@ -253,6 +265,9 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                          uint32_t mask, ppmi_transport transport)
 {
     const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
+    if (mask & bsdf->lobes & PPMI_LOBE_PHASE) {
+        return vec3_scale(bsdf->sigma_s, ppmi_phase(bsdf->asymmetry_g, wi.z));
+    }
     ppmi_vec3 f = vec3_splat(0.0f);
     if (!sides_agree(bsdf, wi_world, wi.z)) return f;
     mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
@@ -267,7 +282,7 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
 float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
 {
     float sum = 0.0f;
-    for (uint32_t i = 0; i < 3; i++) {
+    for (uint32_t i = 0; i < 4; i++) {
         if (mask >> i & 1) sum += bsdf->lobe_probability[i];
     }
     return sum;
@@ -276,6 +291,7 @@ float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
 float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
 {
     const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
+    if (mask & bsdf->lobes & PPMI_LOBE_PHASE) return ppmi_phase(bsdf->asymmetry_g, wi.z);
     const float total = ppmi_bsdf_probability(bsdf, mask);
     if (!sides_agree(bsdf, wi_world, wi.z) || total <= 0.0f) return 0.0f;
     mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
@@ -318,30 +334,62 @@ static bool draw_mirror(const ppmi_bsdf *bsdf, float probability, ppmi_bsdf_samp
     return true;
 }
 
-/* The smooth interface: Fresnel decides, so the weight is that of the lobe alone. */
+static const ppmi_vec3 local_up = {0.0f, 0.0f, 1.0f};
+
+/* Reflection at the smooth interface, with share as weight. */
+static void reflect_at_glass(const ppmi_bsdf *bsdf, float share, ppmi_bsdf_sample *sample)
+{
+    const ppmi_vec3 local = reflect_about(bsdf->wo, local_up);
+    sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, local));
+    sample->weight = vec3_splat(share);
+}
+
+/* Transmission through the smooth interface, with share times tint as weight. */
+static bool transmit_at_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, float cos_t,
+                              float share, ppmi_bsdf_sample *sample)
+{
+    const ppmi_vec3 local =
+        bsdf->is_thin ? vec3_neg(bsdf->wo) : refract_about(bsdf->wo, local_up, bsdf->eta, cos_t);
+    sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, local));
+    sample->is_transmission = true;
+    sample->eta_scale = transmitted_scale(bsdf, transport);
+    sample->weight = vec3_scale(bsdf->tint, share * sample->eta_scale);
+    /* at a leaning shading normal the refracted ray may stay above the surface: absorbed */
+    return vec3_dot(sample->wi, bsdf->ng) < 0.0f;
+}
+
+/* Fresnel decides, so the weight is that of the lobe alone. */
 static bool draw_smooth_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, float probability,
                               float u, ppmi_bsdf_sample *sample)
 {
-    const ppmi_vec3 up = vec3(0.0f, 0.0f, 1.0f);
     float cos_t;
     const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
     const float share = bsdf->glass_weight / probability;
-    if (u < reflectance) {
-        sample->wi =
-            lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, reflect_about(bsdf->wo, up)));
-        sample->weight = vec3_splat(share);
-        return true;
+    if (u >= reflectance) return transmit_at_glass(bsdf, transport, cos_t, share, sample);
+    reflect_at_glass(bsdf, share, sample);
+    return true;
+}
+
+uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, uint32_t mask, ppmi_transport transport,
+                            ppmi_bsdf_sample out_samples[PPMI_BSDF_MAX_BRANCHES])
+{
+    uint32_t count = 0;
+    mask &= bsdf->delta_lobes;
+    for (uint32_t i = 0; i < PPMI_BSDF_MAX_BRANCHES; i++)
+        out_samples[i] = (ppmi_bsdf_sample){.is_delta = true, .eta_scale = 1.0f};
+    if (mask & PPMI_LOBE_SPEC) count += draw_mirror(bsdf, 1.0f, &out_samples[count]);
+    if (mask & PPMI_LOBE_GLASS) {
+        float cos_t;
+        const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+        if (reflectance > 0.0f) {
+            reflect_at_glass(bsdf, bsdf->glass_weight * reflectance, &out_samples[count++]);
+        }
+        const float left = bsdf->glass_weight * (1.0f - reflectance);
+        if (left > 0.0f) {
+            count += transmit_at_glass(bsdf, transport, cos_t, left, &out_samples[count]);
+        }
     }
-    const ppmi_vec3 local =
-        bsdf->is_thin ? vec3_neg(bsdf->wo) : refract_about(bsdf->wo, up, bsdf->eta, cos_t);
-    sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, local));
-    sample->is_transmission = true;
-    const float scale = transport == PPMI_TRANSPORT_RADIANCE && !bsdf->is_thin
-                            ? share / (bsdf->eta * bsdf->eta)
-                            : share;
-    sample->weight = vec3_scale(bsdf->tint, scale);
-    /* at a leaning shading normal the refracted ray may stay above the surface: absorbed */
-    return vec3_dot(sample->wi, bsdf->ng) < 0.0f;
+    return count;
 }
 
 /* A direction of the rough glass lobe, local. u is used up for the choice of side and what is left
@@ -364,12 +412,20 @@ static bool draw_rough_glass(const ppmi_bsdf *bsdf, float u_side, float u, float
     return wi->z < 0.0f;
 }
 
+static void draw_phase(const ppmi_bsdf *bsdf, float u, float v, ppmi_bsdf_sample *sample)
+{
+    const ppmi_vec3 local = ppmi_phase_sample(bsdf->asymmetry_g, u, v);
+    sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, local));
+    sample->weight = bsdf->sigma_s;
+    sample->pdf = ppmi_phase(bsdf->asymmetry_g, local.z);
+}
+
 /* Which lobe of the mask u falls to; what is left of u is uniform again. */
 static uint32_t choose_lobe(const ppmi_bsdf *bsdf, uint32_t mask, float total, float *u)
 {
     float x = *u * total;
-    uint32_t last = 3;
-    for (uint32_t i = 0; i < 3; i++) {
+    uint32_t last = 4;
+    for (uint32_t i = 0; i < 4; i++) {
         const float p = bsdf->lobe_probability[i];
         if (!(mask >> i & 1) || p <= 0.0f) continue;
         last = i;
@@ -391,7 +447,11 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
     const float total = ppmi_bsdf_probability(bsdf, mask);
     if (total <= 0.0f) return false;
     const uint32_t lobe = choose_lobe(bsdf, mask, total, &u_lobe);
-    *out_sample = (ppmi_bsdf_sample){0};
+    *out_sample = (ppmi_bsdf_sample){.eta_scale = 1.0f};
+    if (1u << lobe == PPMI_LOBE_PHASE) {
+        draw_phase(bsdf, u, v, out_sample);
+        return true;
+    }
     if (bsdf->delta_lobes >> lobe & 1) {
         out_sample->is_delta = true;
         const float probability = bsdf->lobe_probability[lobe] / total;
@@ -410,6 +470,7 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
     }
     out_sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, wi));
     out_sample->is_transmission = wi.z < 0.0f;
+    if (out_sample->is_transmission) out_sample->eta_scale = transmitted_scale(bsdf, transport);
     out_sample->pdf = ppmi_bsdf_pdf(bsdf, out_sample->wi, mask);
     if (!(out_sample->pdf > 0.0f)) return false;
     const ppmi_vec3 f = ppmi_bsdf_eval(bsdf, albedo, out_sample->wi, mask, transport);

@@ -3,6 +3,8 @@
  *   WIDE   Lambert under the coat, and the multiple scattering of a rough metal: always gathers
  *   SPEC   GGX reflection of the coat or the metal; a mirror when smooth
  *   GLASS  dielectric interface or thin sheet: reflection and refraction; smooth or rough
+ *   PHASE  no surface at all but a point in a medium: sigma_s times the phase function, without
+ *          cosine; always gathers, and stands alone
  *
  * Directions point away from the surface, in world space. wo is the side the BSDF was made for: the
  * eye on eye paths, where the light came from on photon paths. */
@@ -11,8 +13,15 @@
 
 #include "shading/albedo.h"
 #include "shading/material.h"
+#include "shading/medium.h"
 
-enum { PPMI_LOBE_WIDE = 1, PPMI_LOBE_SPEC = 2, PPMI_LOBE_GLASS = 4, PPMI_LOBE_ALL = 7 };
+enum {
+    PPMI_LOBE_WIDE = 1,
+    PPMI_LOBE_SPEC = 2,
+    PPMI_LOBE_GLASS = 4,
+    PPMI_LOBE_PHASE = 8,
+    PPMI_LOBE_ALL = 15
+};
 
 /* What a path carries. Radiance is scaled by the square of the index ratio where it is refracted,
  * photon power is not (Veach 1997, section 5.2). */
@@ -41,7 +50,11 @@ typedef struct ppmi_bsdf {
     float eta; /* index on the far side by the one on wo's side */
     bool is_thin;
 
-    float lobe_probability[3]; /* WIDE, SPEC, GLASS; sums to 1, or all 0 for black */
+    /* PHASE; frame.n is the direction of flight */
+    ppmi_vec3 sigma_s;
+    float asymmetry_g;
+
+    float lobe_probability[4]; /* WIDE, SPEC, GLASS, PHASE; sums to 1, or all 0 for black */
     uint8_t lobes;             /* mask of lobes that are there */
     uint8_t delta_lobes;       /* those of them that are infinitely narrow */
     uint8_t gather_lobes;      /* those wide enough for density estimation */
@@ -51,13 +64,25 @@ typedef struct ppmi_bsdf_sample {
     ppmi_vec3 wi;
     ppmi_vec3 weight; /* f |cos| / pdf, with the shading normal's cosine */
     float pdf;        /* by solid angle, of the lobes in the mask; 0 for a delta lobe */
+    float eta_scale;  /* factor of radiance by refraction that is in weight, 1 / eta^2; else 1 */
     bool is_delta;
     bool is_transmission;
 } ppmi_bsdf_sample;
 
+/* The index of KHR_materials_ior; its 0 means a Fresnel term of 1 throughout, which a huge index
+ * comes close to. */
+static inline float ppmi_dielectric_index(float ior)
+{
+    return ior == 0.0f ? 1e4f : ppmi_max(ior, 1.0f);
+}
+
 /* wo: unit, away from the surface. */
 void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface,
                     const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *out_bsdf);
+
+/* The scattering at a point of a medium that scatters. wo: unit, towards where the path came from.
+ */
+void ppmi_bsdf_make_phase(const ppmi_medium *medium, ppmi_vec3 wo, ppmi_bsdf *out_bsdf);
 
 /* f without cosine, of the non-delta lobes in mask. */
 ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
@@ -75,10 +100,27 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
                     ppmi_transport transport, float u_lobe, float u, float v,
                     ppmi_bsdf_sample *out_sample);
 
-/* Cosine of a direction to the shading normal. */
+/* All directions of the delta lobes in mask, each with its whole weight, for paths that follow
+ * every branch. Returns their number. */
+enum { PPMI_BSDF_MAX_BRANCHES = 3 };
+uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, uint32_t mask, ppmi_transport transport,
+                            ppmi_bsdf_sample out_samples[PPMI_BSDF_MAX_BRANCHES]);
+
+static inline bool ppmi_bsdf_is_phase(const ppmi_bsdf *bsdf)
+{
+    return (bsdf->lobes & PPMI_LOBE_PHASE) != 0;
+}
+
+/* Cosine of a direction to the shading normal; 1 in a medium. */
 static inline float ppmi_bsdf_cosine(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
-    return vec3_dot(wi, bsdf->frame.n);
+    return ppmi_bsdf_is_phase(bsdf) ? 1.0f : vec3_dot(wi, bsdf->frame.n);
+}
+
+/* The normal that light is sampled for; the zero vector in a medium. */
+static inline ppmi_vec3 ppmi_bsdf_normal(const ppmi_bsdf *bsdf)
+{
+    return ppmi_bsdf_is_phase(bsdf) ? vec3_splat(0.0f) : bsdf->frame.n;
 }
 
 #endif

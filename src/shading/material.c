@@ -58,16 +58,3 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
         .ns = mapped_normal(scene, surface),
     };
 }
-
-ppmi_vec3 ppmi_material_transmittance(const ppmi_material *material, float distance)
-{
-    const ppm_material_desc *desc = &material->desc;
-    if (!material->is_solid_glass || !(desc->attenuation_distance_m > 0.0f) ||
-        isinf(desc->attenuation_distance_m)) {
-        return vec3_splat(1.0f);
-    }
-    const float exponent = distance / desc->attenuation_distance_m;
-    return vec3(powf(desc->attenuation_color[0], exponent),
-                powf(desc->attenuation_color[1], exponent),
-                powf(desc->attenuation_color[2], exponent));
-}

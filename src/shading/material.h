@@ -13,14 +13,12 @@ typedef struct ppmi_material_point {
     ppmi_vec3 specular_color; /* scales its F0 */
     float transmission;
     bool is_thin;
-    ppmi_vec3 ns; /* shading normal after the normal map, front side */
+    float relative_index; /* of refraction, beyond the surface by this side; 0: from ior, with
+                             nothing outside */
+    ppmi_vec3 ns;         /* shading normal after the normal map, front side */
 } ppmi_material_point;
 
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
                             ppmi_material_point *out_point);
-
-/* Transmittance over a distance inside a solid: Beer-Lambert with the coefficients of
- * KHR_materials_volume, sigma_a = -ln(attenuationColor) / attenuationDistance. */
-ppmi_vec3 ppmi_material_transmittance(const ppmi_material *material, float distance);
 
 #endif

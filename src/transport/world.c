@@ -1,8 +1,30 @@
 /* Steps of a path: to the next surface, to the lights, to emission that lies on the way. */
 #include "transport/world.h"
 
+#include "transport/media.h"
+#include "transport/solid.h"
+
 /* A stack of this many sheets with alpha ends a ray: it would be black anyway. */
-enum { MAX_PASSES_THROUGH_ALPHA = 256 };
+enum { MAX_SURFACES_PASSED = 256 };
+
+void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
+                     const ppmi_lights *lights, const ppmi_albedo_table *albedo,
+                     const ppmi_spectrum *spectrum)
+{
+    *world = (ppmi_world){
+        .scene = scene, .accel = accel, .lights = lights, .albedo = albedo, .spectrum = spectrum};
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const ppmi_material *material = &scene->materials[i];
+        world->has_alpha = world->has_alpha || material->has_alpha;
+        world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
+    }
+    ppmi_vec3 low, high;
+    world->has_fog = !ppmi_medium_is_empty(&scene->fog) && ppmi_scene_bounds(scene, &low, &high);
+    if (!world->has_fog) return;
+    world->has_scattering = world->has_scattering || ppmi_medium_scatters(&scene->fog);
+    world->fog_center = vec3_scale(vec3_add(low, high), 0.5f);
+    world->fog_radius = 0.5f * vec3_length(vec3_sub(high, low)) * 1.0001f;
+}
 
 static bool trace(ppmi_walker *walker, const ppmi_ray *ray, ppmi_vertex *vertex)
 {
@@ -27,50 +49,104 @@ static bool passes_through(ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_
     return opacity <= 0.0f || ppmi_rng_float(&walker->rng) >= opacity;
 }
 
-/* A ray that reaches a solid from its back has come through it. */
-static ppmi_vec3 transmittance_to(const ppmi_vertex *vertex, ppmi_vec3 direction)
+/* Puts the vertex into the medium, at t along the ray. */
+static void scatter_at(ppmi_vertex *vertex, const ppmi_medium *medium, const ppmi_ray *ray, float t)
 {
-    const ppmi_material *material = vertex->surface.material;
-    if (!material->is_solid_glass || vec3_dot(direction, vertex->surface.ng) <= 0.0f) {
-        return vec3_splat(1.0f);
-    }
-    return ppmi_material_transmittance(material, vertex->distance);
+    vertex->medium = medium;
+    vertex->surface = (ppmi_surface){.position = vec3_mad(ray->origin, ray->direction, t)};
+    vertex->distance += t;
 }
 
-bool ppmi_walk_to_surface(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
-                          ppmi_vertex *out_vertex)
+/* Takes the path through the medium before a hit (at t_max; infinite: none). False where it is
+ * scattered on the way. */
+static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, ppmi_vertex *vertex)
 {
-    float distance = 0.0f;
-    for (int i = 0; i < MAX_PASSES_THROUGH_ALPHA; i++) {
-        if (!trace(walker, &ray, out_vertex)) return false;
-        distance += out_vertex->hit.t;
-        if (!passes_through(walker, out_vertex, ray.direction, kind)) {
-            out_vertex->distance = distance;
-            out_vertex->transmittance = transmittance_to(out_vertex, ray.direction);
-            return true;
-        }
-        ray = ppmi_surface_ray(&out_vertex->surface, ray.direction);
+    const ppmi_medium_span span = ppmi_media_span(walker->world, &walker->interior, ray, t_max);
+    if (!span.medium) return true;
+    const float length = span.end - span.begin;
+    if (!ppmi_medium_scatters(span.medium)) {
+        vertex->transmittance =
+            vec3_mul(vertex->transmittance, ppmi_medium_transmittance(span.medium, length));
+        return true;
     }
+    const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
+    const ppmi_medium_sample sample =
+        ppmi_medium_sample_distance(span.medium, length, u_channel, u);
+    vertex->transmittance = vec3_mul(vertex->transmittance, sample.weight);
+    if (!sample.is_scattered) return true;
+    scatter_at(vertex, span.medium, ray, span.begin + sample.distance);
     return false;
 }
 
-float ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray)
+ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                       ppmi_vertex *out_vertex)
 {
-    if (!walker->world->has_alpha) {
-        walker->rays++;
-        return ppmi_accel_occluded(walker->world->accel, &ray) ? 0.0f : 1.0f;
+    ppmi_vertex *vertex = out_vertex;
+    vertex->medium = NULL;
+    vertex->distance = 0.0f;
+    vertex->transmittance = vec3_splat(1.0f);
+    vertex->relative_index = vertex->drawn_wavelength = 0.0f;
+    for (int i = 0; i < MAX_SURFACES_PASSED; i++) {
+        const bool is_hit = trace(walker, &ray, vertex);
+        const float t = vertex->hit.t;
+        const bool is_solid = is_hit && vertex->surface.material->is_solid_glass;
+        const bool is_seen = !is_solid || ppmi_solid_arrive(walker, ray.direction, vertex);
+        if (!cross_medium(walker, &ray, is_hit ? t : INFINITY, vertex)) return PPMI_IN_MEDIUM;
+        if (!is_hit) return PPMI_ESCAPED;
+        vertex->distance += t;
+        if (!is_seen) {
+            walker->interior = vertex->behind;
+        } else if (!passes_through(walker, vertex, ray.direction, kind)) {
+            if (vertex->surface.material->is_solid_glass) {
+                ppmi_solid_refract(walker, ray.direction, vertex);
+            }
+            return PPMI_AT_SURFACE;
+        } /* a solid's surface that alpha takes away is no border */
+        const float time = ray.time;
+        ray = ppmi_surface_ray(&vertex->surface, ray.direction);
+        ray.time = time;
     }
+    vertex->transmittance = vec3_splat(0.0f);
+    return PPMI_ESCAPED;
+}
+
+static ppmi_vec3 media_transmittance(const ppmi_world *world, const ppmi_interior *interior,
+                                     const ppmi_ray *ray, float t_max)
+{
+    if (!world->has_fog && interior->count == 0) return vec3_splat(1.0f);
+    const ppmi_medium_span span = ppmi_media_span(world, interior, ray, t_max);
+    return span.medium ? ppmi_medium_transmittance(span.medium, span.end - span.begin)
+                       : vec3_splat(1.0f);
+}
+
+/* The product of 1 - opacity through surfaces with alpha. */
+static float alpha_visibility(ppmi_walker *walker, ppmi_ray ray)
+{
     float visibility = 1.0f;
-    for (int i = 0; i < MAX_PASSES_THROUGH_ALPHA && visibility > 1e-4f; i++) {
+    for (int i = 0; i < MAX_SURFACES_PASSED && visibility > 1e-4f; i++) {
         ppmi_vertex vertex;
         if (!trace(walker, &ray, &vertex)) return visibility;
         visibility *= 1.0f - ppmi_surface_opacity(walker->world->scene, &vertex.surface);
-        const float left = ray.t_max - vertex.hit.t;
+        const float left = ray.t_max - vertex.hit.t, time = ray.time;
         ray = ppmi_surface_ray(&vertex.surface, ray.direction);
         ray.t_max = left;
+        ray.time = time;
         if (!(left > 0.0f)) return visibility;
     }
     return 0.0f;
+}
+
+ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior)
+{
+    float visibility;
+    if (walker->world->has_alpha) {
+        visibility = alpha_visibility(walker, ray);
+    } else {
+        walker->rays++;
+        visibility = ppmi_accel_occluded(walker->world->accel, &ray) ? 0.0f : 1.0f;
+    }
+    if (visibility <= 0.0f) return vec3_splat(0.0f);
+    return vec3_scale(media_transmittance(walker->world, interior, &ray, ray.t_max), visibility);
 }
 
 /* From surface to light. Both ends are moved off their surfaces; what is left of rounding grows
@@ -88,7 +164,21 @@ static ppmi_ray shadow_ray(const ppmi_surface *surface, const ppmi_light_sample 
     return ray;
 }
 
-ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_surface *surface,
+/* What is on the side of a vertex that wi points to, and what a path costs that goes there. */
+static const ppmi_interior *interior_towards(const ppmi_walker *walker, const ppmi_vertex *vertex,
+                                             const ppmi_bsdf *bsdf, ppmi_vec3 wi,
+                                             ppmi_vec3 *out_weight)
+{
+    *out_weight = vec3_splat(1.0f);
+    const bool is_transmission = !vertex->medium && vertex->surface.material->is_solid_glass &&
+                                 vec3_dot(wi, bsdf->ng) < 0.0f;
+    if (vertex->drawn_wavelength > 0.0f && (is_transmission || vertex->splits_always)) {
+        *out_weight = ppmi_spectrum_weight(walker->world->spectrum, vertex->drawn_wavelength);
+    }
+    return is_transmission ? &vertex->behind : &walker->interior;
+}
+
+ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
                                  const ppmi_bsdf *bsdf)
 {
     const ppmi_vec3 black = vec3_splat(0.0f);
@@ -97,27 +187,52 @@ ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_surface *surfac
     const double u_pick = ppmi_walker_double(walker);
     const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
     ppmi_light_sample light;
-    if (!ppmi_lights_sample(world->lights, surface->position, bsdf->frame.n, u_pick, u, v,
-                            &light)) {
+    if (!ppmi_lights_sample(world->lights, vertex->surface.position, ppmi_bsdf_normal(bsdf), u_pick,
+                            u, v, &light)) {
         return black;
     }
     const ppmi_vec3 f =
         ppmi_bsdf_eval(bsdf, world->albedo, light.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
     if (vec3_is_black(f)) return black;
-    const float visibility = ppmi_walk_visibility(walker, shadow_ray(surface, &light));
-    if (visibility <= 0.0f) return black;
+    ppmi_vec3 weight;
+    const ppmi_interior *interior = interior_towards(walker, vertex, bsdf, light.wi, &weight);
+    ppmi_ray ray = shadow_ray(&vertex->surface, &light);
+    ray.time = walker->time;
+    const ppmi_vec3 visibility = ppmi_walk_visibility(walker, ray, interior);
+    if (vec3_is_black(visibility)) return black;
     const float bsdf_pdf = light.is_delta ? 0.0f : ppmi_bsdf_pdf(bsdf, light.wi, PPMI_LOBE_ALL);
-    const float weight = fabsf(ppmi_bsdf_cosine(bsdf, light.wi)) * visibility *
-                         ppmi_mis_weight(light.pdf, bsdf_pdf) / light.pdf;
-    return vec3_scale(vec3_mul(f, light.radiance), weight);
+    const float scale =
+        fabsf(ppmi_bsdf_cosine(bsdf, light.wi)) * ppmi_mis_weight(light.pdf, bsdf_pdf) / light.pdf;
+    weight = vec3_mul(weight, vec3_scale(visibility, scale));
+    return vec3_mul(vec3_mul(f, light.radiance), weight);
 }
 
 void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_vec3 direction,
                     ppmi_bsdf *out_bsdf)
 {
+    if (vertex->medium) {
+        ppmi_bsdf_make_phase(vertex->medium, vec3_neg(direction), out_bsdf);
+        return;
+    }
     ppmi_material_point point;
     ppmi_material_evaluate(walker->world->scene, &vertex->surface, &point);
+    point.relative_index = vertex->relative_index;
     ppmi_bsdf_make(walker->world->albedo, &vertex->surface, &point, vec3_neg(direction), out_bsdf);
+}
+
+ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
+                         const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput)
+{
+    ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample->wi);
+    ray.time = walker->time;
+    if (vertex->medium || !vertex->surface.material->is_solid_glass) return ray;
+    if (sample->is_transmission) walker->interior = vertex->behind;
+    if (vertex->drawn_wavelength > 0.0f && (sample->is_transmission || vertex->splits_always)) {
+        walker->wavelength_nm = vertex->drawn_wavelength;
+        *throughput = vec3_mul(
+            *throughput, ppmi_spectrum_weight(walker->world->spectrum, vertex->drawn_wavelength));
+    }
+    return ray;
 }
 
 ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *vertex,

@@ -6,6 +6,8 @@
 #include "light/lights.h"
 #include "math/sampler.h"
 #include "shading/bsdf.h"
+#include "shading/spectrum.h"
+#include "transport/interior.h"
 
 /* Everything is const while paths are traced. */
 typedef struct ppmi_world {
@@ -13,8 +15,18 @@ typedef struct ppmi_world {
     const ppmi_accel *accel;
     const ppmi_lights *lights;
     const ppmi_albedo_table *albedo;
+    const ppmi_spectrum *spectrum;
     bool has_alpha; /* some material lets rays pass */
+    bool has_fog;
+    bool has_scattering;  /* some medium scatters */
+    ppmi_vec3 fog_center; /* the ball that the fog fills */
+    float fog_radius;
 } ppmi_world;
+
+/* Fills in a world over parts that must outlive it; the scene is frozen. */
+void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
+                     const ppmi_lights *lights, const ppmi_albedo_table *albedo,
+                     const ppmi_spectrum *spectrum);
 
 /* What one path changes.
  *
@@ -30,10 +42,14 @@ typedef struct ppmi_walker {
     uint32_t set, set_end; /* next set of four dimensions, and where they end */
     uint32_t used;         /* of the current set */
     ppmi_sample4 sample;
+
+    ppmi_interior interior; /* where the path is now */
+    float wavelength_nm;    /* of a path that dispersion has split; 0: all of them */
+    float time;             /* within the shutter, 0 .. 1 */
 } ppmi_walker;
 
-/* Starts a path: index counts paths of the stream, stratified_index those that stratify each other
- * under stratified_seed; sets first_set .. set_end - 1 are used. */
+/* Starts a path, outside of all solids: index counts paths of the stream, stratified_index those
+ * that stratify each other under stratified_seed; sets first_set .. set_end - 1 are used. */
 static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t stratified_seed,
                                      uint32_t stratified_index, uint32_t first_set,
                                      uint32_t set_end)
@@ -44,6 +60,9 @@ static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t
     walker->set = first_set;
     walker->set_end = set_end;
     walker->used = 4;
+    walker->interior.count = 0;
+    walker->wavelength_nm = 0.0f;
+    walker->time = 0.0f;
 }
 
 static inline uint32_t ppmi_walker_u32(ppmi_walker *walker)
@@ -66,44 +85,64 @@ static inline double ppmi_walker_double(ppmi_walker *walker)
     return (double)ppmi_walker_u32(walker) * 0x1p-32;
 }
 
-/* A vertex of a path. */
+/* A vertex of a path: on a surface, or in a medium. There only surface.position is set, the error
+ * bound and normals are 0. */
 typedef struct ppmi_vertex {
     ppmi_hit hit;
     ppmi_surface surface;
-    float distance;          /* from the ray's origin, along all segments through alpha */
-    ppmi_vec3 transmittance; /* of the solid that the ray went through */
+    const ppmi_medium *medium; /* that scattered the path here; NULL at a surface */
+    float distance;            /* from the ray's origin, along all segments through alpha */
+    ppmi_vec3 transmittance;   /* of the media on the way, over the probability of coming this far
+                                  where they scatter */
+
+    /* at solids */
+    float relative_index;   /* beyond the surface by this side, at the path's wavelength */
+    ppmi_interior behind;   /* what a path is in that goes through */
+    float drawn_wavelength; /* if it goes through and had none; else 0 */
+    bool splits_always;     /* colours part in reflection too: near total reflection */
 } ppmi_vertex;
 
 /* Whether the ray comes straight from the camera: it then sees through the back of single-sided
  * surfaces. Everything else meets both sides, so that light does not leak through walls. */
 typedef enum ppmi_ray_kind { PPMI_RAY_CAMERA, PPMI_RAY_OTHER } ppmi_ray_kind;
 
-/* Follows a ray (unit direction) to the next surface. Surfaces with alpha stop it with their
- * opacity as probability. False when it leaves the scene. */
-bool ppmi_walk_to_surface(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
-                          ppmi_vertex *out_vertex);
+typedef enum ppmi_arrival { PPMI_AT_SURFACE, PPMI_IN_MEDIUM, PPMI_ESCAPED } ppmi_arrival;
 
-/* Share of light that passes along a ray (unit direction) up to t_max: 0 behind anything opaque,
- * the product of 1 - opacity through alpha. */
-float ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray);
+/* Follows a ray (unit direction) to where something happens to it: a surface, a scattering in a
+ * medium, or out of the scene. Surfaces with alpha stop it with their opacity as probability;
+ * surfaces inside of solids that count for more are passed. out_vertex->transmittance and distance
+ * are set in all cases. */
+ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                       ppmi_vertex *out_vertex);
 
-/* Radiance towards wo from one light sample at a surface, all lobes that are not delta, weighed by
+/* Light that passes along a ray (unit direction) up to t_max, from within interior: 0 behind
+ * anything opaque, else the product of 1 - opacity through alpha and of the media's transmittance.
+ */
+ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior);
+
+/* Radiance towards wo from one light sample at a vertex, all lobes that are not delta, weighed by
  * MIS against sampling the BSDF. */
-ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_surface *surface,
+ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
                                  const ppmi_bsdf *bsdf);
 
-/* Makes the BSDF of a vertex for a ray that came along direction. */
+/* Makes the BSDF of a vertex for a ray that came along direction; in a medium its phase function.
+ */
 void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_vec3 direction,
                     ppmi_bsdf *out_bsdf);
+
+/* Leaves a vertex in a sampled direction: into the solid or out of it, with one wavelength from
+ * dispersion on. Multiplies *throughput by what the latter costs, not by the sample's weight. */
+ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
+                         const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput);
 
 /* Where a path comes from, for the MIS weight of emission that it meets. */
 typedef struct ppmi_origin {
     float pdf;        /* by solid angle of its direction; irrelevant if is_delta */
-    ppmi_vec3 normal; /* shading normal there */
+    ppmi_vec3 normal; /* shading normal there; 0 in a medium */
     bool is_delta;    /* camera, mirror or smooth glass: light sampling cannot do it */
 } ppmi_origin;
 
-/* Emission of a vertex towards where the ray (unit direction) came from, weighed by MIS. */
+/* Emission of a surface vertex towards where the ray (unit direction) came from, weighed by MIS. */
 ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *vertex,
                              ppmi_vec3 direction, const ppmi_origin *origin);
 

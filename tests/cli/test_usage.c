@@ -64,7 +64,7 @@ static void bad_values_name_option_and_value(void **state)
         {"--seed -1 tiny.gltf", "--seed: '-1'"},
         {"--threads 2.5 tiny.gltf", "--threads: '2.5'"},
         {"--exposure inf tiny.gltf", "--exposure: 'inf'"},
-        {"-i spm tiny.gltf", "'spm' is not one of sppm, path; did you mean 'sppm'?"},
+        {"-i spm tiny.gltf", "'spm' is not one of sppm, ppm, path; did you mean 'sppm'?"},
         {"--light-units blendr tiny.gltf", "did you mean 'blender'?"},
         {"--transmission sold tiny.gltf", "did you mean 'solid'?"},
         {"--output '' tiny.gltf", "--output: ''"},

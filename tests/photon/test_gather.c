@@ -15,7 +15,7 @@
 
 static ppm_context *context;
 static ppmi_albedo_table albedo;
-static ppmi_visible_points points;
+static ppmi_visible_point point;
 
 static const ppmi_vec3 up = {0.0f, 0.0f, 1.0f};
 
@@ -23,14 +23,12 @@ static int start(void **state)
 {
     (void)state;
     ppmi_albedo_table_init(&albedo);
-    if (ppm_context_create(NULL, &context) != PPM_STATUS_OK) return -1;
-    return ppmi_visible_points_init(context, &points, 1);
+    return ppm_context_create(NULL, &context) == PPM_STATUS_OK ? 0 : -1;
 }
 
 static int finish(void **state)
 {
     (void)state;
-    ppmi_visible_points_deinit(context, &points);
     const size_t live = ppmi_alloc_live(context);
     ppm_context_destroy(context);
     return live == 0 ? 0 : -1;
@@ -46,9 +44,8 @@ static ppmi_material_point lambert(float reflectance)
 static void look_at(const ppmi_material_point *material)
 {
     const ppmi_surface surface = {.ng = up, .ns = material->ns};
-    points.is_valid[0] = 1;
-    points.x[0] = points.y[0] = points.z[0] = 0.0f;
-    ppmi_bsdf_make(&albedo, &surface, material, up, &points.bsdf[0]);
+    point = (ppmi_visible_point){.footprint = 1.0f};
+    ppmi_bsdf_make(&albedo, &surface, material, up, &point.bsdf);
 }
 
 static ppmi_photon photon_at(float x, float y, float z)
@@ -61,7 +58,7 @@ static ppmi_gathered gather(const ppmi_photon *photons, size_t count, float radi
     ppmi_photon_grid grid = {0};
     assert_int_equal(ppmi_photon_grid_build(context, &grid, photons, count, radius, 1),
                      PPM_STATUS_OK);
-    const ppmi_gathered gathered = ppmi_gather(&grid, &albedo, &points, 0, radius);
+    const ppmi_gathered gathered = ppmi_gather(&grid, &albedo, &point, radius);
     ppmi_photon_grid_deinit(context, &grid);
     return gathered;
 }

@@ -48,6 +48,7 @@ static ppmi_photon_walk walk_of(uint64_t seed, uint32_t count, uint32_t depth, u
                               .seed = seed,
                               .count = count,
                               .max_depth = depth,
+                              .first_depth = 1,
                               .threads = threads,
                               .cancel = &cancel};
 }
@@ -55,13 +56,14 @@ static ppmi_photon_walk walk_of(uint64_t seed, uint32_t count, uint32_t depth, u
 static ppmi_photon_list run(const ppmi_photon_walk *walk)
 {
     ppmi_photon_scratch scratch = {0};
-    ppmi_photon_list list = {0};
+    ppmi_photon_list lists[PPMI_PHOTON_KINDS] = {{0}};
     uint64_t rays = 0;
-    assert_int_equal(ppmi_photon_walk_run(test.context, walk, &scratch, &list, &rays),
+    assert_int_equal(ppmi_photon_walk_run(test.context, walk, &scratch, lists, &rays),
                      PPM_STATUS_OK);
     assert_true(rays >= walk->count);
+    assert_int_equal(lists[PPMI_PHOTONS_VOLUME].count, 0); /* nothing scatters here */
     ppmi_photon_scratch_deinit(test.context, &scratch);
-    return list;
+    return lists[PPMI_PHOTONS_SURFACE];
 }
 
 static ppmi_vec3 total_power(const ppmi_photon_list *list)
@@ -180,16 +182,16 @@ static void passes_continue_each_other(void **state)
     ppmi_photon_list whole = run(&walk);
     walk.count = 1000;
     ppmi_photon_scratch scratch = {0};
-    ppmi_photon_list halves = {0};
+    ppmi_photon_list halves[PPMI_PHOTON_KINDS] = {{0}};
     uint64_t rays = 0;
     for (int half = 0; half < 2; half++) {
         walk.first_index = 1000 * (uint64_t)half;
-        assert_int_equal(ppmi_photon_walk_run(test.context, &walk, &scratch, &halves, &rays),
+        assert_int_equal(ppmi_photon_walk_run(test.context, &walk, &scratch, halves, &rays),
                          PPM_STATUS_OK);
     }
-    assert_same(&halves, &whole);
+    assert_same(&halves[PPMI_PHOTONS_SURFACE], &whole);
     ppmi_photon_scratch_deinit(test.context, &scratch);
-    ppmi_photon_list_deinit(test.context, &halves);
+    ppmi_photon_list_deinit(test.context, &halves[PPMI_PHOTONS_SURFACE]);
     ppmi_photon_list_deinit(test.context, &whole);
 }
 
@@ -227,13 +229,13 @@ static void cancelling_ends_the_walk(void **state)
     atomic_store(&cancel, true);
     const ppmi_photon_walk walk = walk_of(1, 100000, 32, 2);
     ppmi_photon_scratch scratch = {0};
-    ppmi_photon_list list = {0};
+    ppmi_photon_list lists[PPMI_PHOTON_KINDS] = {{0}};
     uint64_t rays = 0;
-    assert_int_equal(ppmi_photon_walk_run(test.context, &walk, &scratch, &list, &rays),
+    assert_int_equal(ppmi_photon_walk_run(test.context, &walk, &scratch, lists, &rays),
                      PPM_STATUS_CANCELLED);
-    assert_int_equal(list.count, 0);
+    assert_int_equal(lists[PPMI_PHOTONS_SURFACE].count, 0);
     ppmi_photon_scratch_deinit(test.context, &scratch);
-    ppmi_photon_list_deinit(test.context, &list);
+    ppmi_photon_list_deinit(test.context, &lists[PPMI_PHOTONS_SURFACE]);
 }
 
 static void every_failed_allocation_is_reported(void **state)
@@ -246,14 +248,14 @@ static void every_failed_allocation_is_reported(void **state)
     size_t n = 1;
     for (; status != PPM_STATUS_OK; n++) {
         ppmi_photon_scratch scratch = {0};
-        ppmi_photon_list list = {0};
+        ppmi_photon_list lists[PPMI_PHOTON_KINDS] = {{0}};
         uint64_t rays = 0;
         ppmi_alloc_fail_at(test.context, n);
-        status = ppmi_photon_walk_run(test.context, &walk, &scratch, &list, &rays);
+        status = ppmi_photon_walk_run(test.context, &walk, &scratch, lists, &rays);
         ppmi_alloc_fail_at(test.context, 0);
         assert_true(status == PPM_STATUS_OK || status == PPM_STATUS_OUT_OF_MEMORY);
         ppmi_photon_scratch_deinit(test.context, &scratch);
-        ppmi_photon_list_deinit(test.context, &list);
+        ppmi_photon_list_deinit(test.context, &lists[PPMI_PHOTONS_SURFACE]);
         assert_int_equal(ppmi_alloc_live(test.context), live);
     }
     assert_true(n > 5);

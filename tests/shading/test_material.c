@@ -206,15 +206,15 @@ static void attenuation_follows_beer_and_lambert(void **state)
     desc.attenuation_distance_m = 2.0f;
     ppm_material_id id = material_add(test.scene, &desc);
     const ppmi_material *material = &test.scene->materials[id - 1];
-    const ppmi_vec3 at_6 = ppmi_material_transmittance(material, 6.0f);
+    const ppmi_vec3 at_6 = ppmi_medium_transmittance(&material->inside, 6.0f);
     assert_near(at_6.x, 0.125, 1e-6);
     assert_near(at_6.y, 0.0, 0.0);
     assert_near(at_6.z, 1.0, 0.0);
-    assert_near(ppmi_material_transmittance(material, 0.0f).x, 1.0, 0.0);
+    assert_near(ppmi_medium_transmittance(&material->inside, 0.0f).x, 1.0, 0.0);
     desc.attenuation_distance_m = 0.0f; /* none */
     id = material_add(test.scene, &desc);
     material = &test.scene->materials[id - 1];
-    assert_near(ppmi_material_transmittance(material, 6.0f).x, 1.0, 0.0);
+    assert_near(ppmi_medium_transmittance(&material->inside, 6.0f).x, 1.0, 0.0);
 }
 
 int main(void)

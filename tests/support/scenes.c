@@ -185,6 +185,15 @@ static const ppmi_albedo_table *shared_albedo(void)
     return &table;
 }
 
+static const ppmi_spectrum *shared_spectrum(void)
+{
+    static ppmi_spectrum spectrum;
+    static bool is_made;
+    if (!is_made) ppmi_spectrum_init(&spectrum);
+    is_made = true;
+    return &spectrum;
+}
+
 void world_open(test_world *test, const test_scene *scene)
 {
     *test = (test_world){0};
@@ -193,13 +202,8 @@ void world_open(test_world *test, const test_scene *scene)
     assert_int_equal(ppmi_lights_create(scene->context, scene->scene, &test->lights),
                      PPM_STATUS_OK);
     test->albedo = shared_albedo();
-    test->world = (ppmi_world){.scene = scene->scene,
-                               .accel = test->accel,
-                               .lights = test->lights,
-                               .albedo = test->albedo};
-    for (uint32_t i = 0; i < scene->scene->material_count; i++) {
-        test->world.has_alpha = test->world.has_alpha || scene->scene->materials[i].has_alpha;
-    }
+    ppmi_world_init(&test->world, scene->scene, test->accel, test->lights, test->albedo,
+                    shared_spectrum());
 }
 
 void world_close(test_world *test)

@@ -63,7 +63,7 @@ static void visibility_is_the_product_of_what_veils_leave(void **state)
     for (int i = 0; i < 5; i++) {
         ppmi_ray ray = ahead;
         ray.t_max = ends[i];
-        assert_near(ppmi_walk_visibility(&walker, ray), expected[i], 1e-6);
+        assert_near(ppmi_walk_visibility(&walker, ray, &walker.interior).x, expected[i], 1e-6);
     }
 }
 
@@ -80,7 +80,7 @@ static void paths_stop_at_a_veil_as_often_as_it_is_opaque(void **state)
     for (uint32_t i = 0; i < count; i++) {
         ppmi_walker walker = walker_of(i);
         ppmi_vertex vertex;
-        assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_OTHER, &vertex));
+        assert_int_equal(ppmi_walk(&walker, ahead, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
         observed[vertex.hit.instance] += 1.0;
         const double depth = vertex.hit.instance == 2 ? 5.0 : vertex.hit.instance + 1.0;
         assert_near(vertex.distance, depth, 1e-4); /* along all segments */
@@ -99,10 +99,10 @@ static void only_camera_rays_see_through_backs(void **state)
         .origin = {0.3f, 0.2f, -2.0f}, .t_max = INFINITY, .direction = {0.0f, 0.0f, 1.0f}};
     ppmi_walker walker = walker_of(0);
     ppmi_vertex vertex;
-    assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_CAMERA, &vertex));
-    assert_false(ppmi_walk_to_surface(&walker, from_behind, PPMI_RAY_CAMERA, &vertex));
-    assert_true(ppmi_walk_to_surface(&walker, from_behind, PPMI_RAY_OTHER, &vertex));
-    assert_near(ppmi_walk_visibility(&walker, from_behind), 0.0, 0.0);
+    assert_int_equal(ppmi_walk(&walker, ahead, PPMI_RAY_CAMERA, &vertex), PPMI_AT_SURFACE);
+    assert_int_equal(ppmi_walk(&walker, from_behind, PPMI_RAY_CAMERA, &vertex), PPMI_ESCAPED);
+    assert_int_equal(ppmi_walk(&walker, from_behind, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
+    assert_near(ppmi_walk_visibility(&walker, from_behind, &walker.interior).x, 0.0, 0.0);
 }
 
 static void a_solid_attenuates_on_the_way_out_only(void **state)
@@ -118,10 +118,10 @@ static void a_solid_attenuates_on_the_way_out_only(void **state)
     world_open(&world, &test);
     ppmi_walker walker = walker_of(0);
     ppmi_vertex vertex;
-    assert_true(ppmi_walk_to_surface(&walker, ahead, PPMI_RAY_OTHER, &vertex));
+    assert_int_equal(ppmi_walk(&walker, ahead, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
     assert_near(vertex.transmittance.x, 1.0, 0.0);
     const ppmi_ray inside = ppmi_surface_ray(&vertex.surface, ahead.direction);
-    assert_true(ppmi_walk_to_surface(&walker, inside, PPMI_RAY_OTHER, &vertex));
+    assert_int_equal(ppmi_walk(&walker, inside, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
     assert_near(vertex.transmittance.x, 0.25, 1e-5);
     assert_near(vertex.transmittance.y, 1.0, 0.0);
 }

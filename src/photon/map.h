@@ -1,0 +1,33 @@
+/* The photon map of one pass: photons at surfaces and in media, each in its grid. */
+#ifndef PPMI_PHOTON_MAP_H
+#define PPMI_PHOTON_MAP_H
+
+#include "photon/gather.h"
+#include "photon/walk.h"
+
+/* Zero it to begin with. Memory is kept from pass to pass. */
+typedef struct ppmi_photon_map {
+    ppmi_photon_scratch scratch;
+    ppmi_photon_list photons[PPMI_PHOTON_KINDS];
+    ppmi_photon_grid grids[PPMI_PHOTON_KINDS];
+} ppmi_photon_map;
+
+/* Traces the photons of walk and sorts them, in place of what the map held. typical_radius: see
+ * ppmi_photon_grid_build. Adds to *out_rays. Returns OK, CANCELLED, OUT_OF_MEMORY. */
+ppm_status ppmi_photon_map_fill(ppm_context *context, ppmi_photon_map *map,
+                                const ppmi_photon_walk *walk, float typical_radius,
+                                uint64_t *out_rays);
+void ppmi_photon_map_deinit(ppm_context *context, ppmi_photon_map *map);
+
+uint64_t ppmi_photon_map_count(const ppmi_photon_map *map);
+
+/* Gathers at a visible point, of either kind. */
+static inline ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map,
+                                                   const ppmi_albedo_table *albedo,
+                                                   const ppmi_visible_point *point, float radius)
+{
+    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
+    return ppmi_gather(&map->grids[kind], albedo, point, radius);
+}
+
+#endif

@@ -1,0 +1,112 @@
+/* Photon passes and first radii. */
+#include "render/photon_pass.h"
+
+#include <omp.h>
+
+/* First radius, in sides of the pixel's footprint, and how often its disk or ball may double where
+ * a pilot pass finds fewer photons than this: smooth light may be averaged over more than a
+ * caustic, which has photons enough within a few pixels. */
+static const float first_scale = 3.0f;
+enum { PILOT_DOUBLINGS = 6, PILOT_PHOTONS = 16 };
+
+/* No radius is larger than this share of the scene's bounding sphere. */
+static const float largest_share = 0.05f;
+
+void ppmi_photon_pass_deinit(const ppmi_job *job, ppmi_photon_pass *photons)
+{
+    ppmi_photon_map_deinit(job->context, &photons->map);
+}
+
+/* A radius that few visible points are below: the smallest footprint over a coarse raster, without
+ * the nearest outliers. */
+static float measure_first_radius(const ppmi_job *job, float largest_radius)
+{
+    if (job->options->radius_m > 0.0f) return job->options->radius_m;
+    enum { SIDE = 32 };
+    float smallest = INFINITY, second = INFINITY;
+    ppmi_walker walker = {.world = &job->world};
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const float x = ((float)(i % SIDE) + 0.5f) / SIDE, y = ((float)(i / SIDE) + 0.5f) / SIDE;
+        const ppmi_camera_ray ray =
+            ppmi_camera_view_ray(&job->view, x * job->view.width, y * job->view.height);
+        ppmi_walker_start(&walker, ppmi_rng_start(0, PPMI_STREAM_EYE, i), 0, i, 0, 0);
+        ppmi_vertex vertex;
+        if (ppmi_walk(&walker, ray.ray, PPMI_RAY_CAMERA, &vertex) == PPMI_ESCAPED) continue;
+        const float footprint = ray.base_width + ray.spread * vertex.distance;
+        if (footprint < smallest) {
+            second = smallest;
+            smallest = footprint;
+        } else {
+            second = ppmi_min(second, footprint);
+        }
+    }
+    const float radius = first_scale * (isfinite(second) ? second : smallest);
+    return ppmi_min(radius, largest_radius);
+}
+
+void ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
+{
+    ppmi_vec3 low, high;
+    ppmi_scene_bounds(job->world.scene, &low, &high);
+    photons->largest_radius = largest_share * 0.5f * vec3_length(vec3_sub(high, low));
+    photons->first_radius = measure_first_radius(job, photons->largest_radius);
+}
+
+float ppmi_photon_pass_first_scale(const ppmi_job *job)
+{
+    return job->options->radius_m > 0.0f ? 1.0f : first_scale;
+}
+
+ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, uint64_t pass,
+                                float radius_share, ppm_render_stats *stats)
+{
+    const double start = omp_get_wtime();
+    const uint64_t per_pass = job->options->photons_per_pass;
+    const ppmi_photon_walk walk = {
+        .world = &job->world,
+        .seed = job->options->seed,
+        .first_index = pass * per_pass,
+        .count = (uint32_t)per_pass,
+        .max_depth = job->options->max_depth,
+        .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
+        .threads = job->options->threads,
+        .cancel = job->cancel,
+    };
+    const ppm_status status = ppmi_photon_map_fill(
+        job->context, &photons->map, &walk, photons->first_radius * radius_share, &stats->rays);
+    stats->seconds_photons += omp_get_wtime() - start;
+    return status;
+}
+
+ppm_status ppmi_photon_pass_run_pilot(const ppmi_job *job, ppmi_photon_pass *photons,
+                                      ppm_render_stats *stats)
+{
+    return ppmi_photon_pass_run(job, photons, PPMI_PILOT_PASS / job->options->photons_per_pass,
+                                1.0f, stats);
+}
+
+void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
+                           const ppmi_visible_point *point, float *scale)
+{
+    const float step = ppmi_root_of(2.0f, ppmi_dimension_of(point));
+    for (int i = 0; i < PILOT_DOUBLINGS; i++) {
+        const float radius = *scale * ppmi_photon_pass_unit(job, photons, point, *scale);
+        const ppmi_gathered gathered =
+            ppmi_photon_map_gather(&photons->map, job->world.albedo, point, radius);
+        if (gathered.count >= (float)PILOT_PHOTONS || 1.5f * radius > photons->largest_radius) {
+            return;
+        }
+        *scale *= step;
+    }
+}
+
+ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)
+{
+    const bool splits = job->options->integrator == PPM_INTEGRATOR_PPM;
+    return (ppmi_eye_settings){
+        .max_depth = job->options->max_depth,
+        .split_depth =
+            splits && job->options->split_depth > 0 ? (uint32_t)job->options->split_depth : 0,
+        .samples_lights = job->options->direct != PPM_DIRECT_PHOTONS,
+    };
+}

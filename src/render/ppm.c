@@ -1,0 +1,273 @@
+/* Progressive photon mapping (Hachisuka, Ogaki, Jensen 2008): one eye pass whose visible points are
+ * kept, then photon passes without end that refine the radius, N and tau of each point
+ * (photon/statistics.h has the formulas). With alpha 1 the radius stays: the classic photon map of
+ * two passes (Jensen 1996), with photons that need not be stored.
+ *
+ * A pixel is as good as its eye paths: what they miss stays missing. Two remedies: paths split at
+ * glass and follow all branches; and epochs, the report's improvement (Weng 2016): after so many
+ * photons the eye pass is drawn anew, at other places in the pixels, statistics begin afresh, and
+ * the pictures of the epochs are averaged by their photons.
+ */
+#include <omp.h>
+#include <string.h>
+
+#include "render/photon_pass.h"
+
+/* One visible point, with what it has gathered in this epoch. */
+typedef struct hit_statistics {
+    ppmi_gather_statistics now, next; /* a pass reads the first and writes the second */
+} hit_statistics;
+
+typedef struct ppm_state {
+    ppmi_visible_points *tiles; /* of each tile, owned by pixels of the film */
+    hit_statistics **statistics;
+    ppmi_vec3 *direct; /* per pixel: what needs no photons, of this epoch's eye paths */
+    float *past;       /* 3 per pixel: sum over past epochs of radiance times photons */
+    ppmi_photon_pass photons;
+    double past_emitted;  /* photons of past epochs */
+    double epoch_emitted; /* of this one */
+    uint64_t epoch;
+    bool has_points;
+} ppm_state;
+
+static void free_points(const ppmi_job *job, ppm_state *state)
+{
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+    for (uint32_t i = 0; i < tiles; i++) {
+        if (state->tiles) ppmi_visible_points_deinit(job->context, &state->tiles[i]);
+        if (!state->statistics) continue;
+        ppmi_free(job->context, state->statistics[i]);
+        state->statistics[i] = NULL;
+    }
+    state->has_points = false;
+}
+
+static void ppm_destroy(const ppmi_job *job, void *opaque)
+{
+    ppm_state *state = opaque;
+    if (!state) return;
+    free_points(job, state);
+    ppmi_free(job->context, state->tiles);
+    ppmi_free(job->context, state->statistics);
+    ppmi_free(job->context, state->direct);
+    ppmi_free(job->context, state->past);
+    ppmi_photon_pass_deinit(job, &state->photons);
+    ppmi_free(job->context, state);
+}
+
+static ppm_status ppm_create(const ppmi_job *job, void **out_state)
+{
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+    ppm_state *state = ppmi_alloc_zeroed(job->context, 1, sizeof *state);
+    if (state) {
+        state->tiles = ppmi_alloc_zeroed(job->context, tiles, sizeof *state->tiles);
+        state->statistics = ppmi_alloc_zeroed(job->context, tiles, sizeof *state->statistics);
+        state->direct = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->direct);
+        state->past = ppmi_alloc_zeroed(job->context, pixels, 3 * sizeof *state->past);
+    }
+    if (!state || !state->tiles || !state->statistics || !state->direct || !state->past) {
+        ppm_destroy(job, state);
+        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
+                         pixels);
+    }
+    ppmi_photon_pass_init(job, &state->photons);
+    *out_state = state;
+    return PPM_STATUS_OK;
+}
+
+/* ---- the eye pass ---------------------------------------------------------------------------- */
+
+/* The visible points of a tile, with the radii that the pilot's photons in the map suggest. */
+static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, uint64_t *rays)
+{
+    const ppmi_eye_settings settings = ppmi_eye_settings_of(job);
+    const ppmi_tile tile = ppmi_tile_at(&job->film, index);
+    ppmi_visible_points *points = &state->tiles[index];
+    ppmi_walker walker = {.world = &job->world};
+    for (uint32_t y = tile.y0; y < tile.y1; y++) {
+        for (uint32_t x = tile.x0; x < tile.x1; x++) {
+            const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, state->epoch);
+            const uint32_t pixel = y * job->film.width + x;
+            state->direct[pixel] = vec3_splat(0.0f);
+            if (!ppmi_eye_path(job->context, &walker, &ray, &settings, pixel, points,
+                               &state->direct[pixel])) {
+                return false;
+            }
+        }
+    }
+    *rays += walker.rays;
+    if (points->count == 0) return true;
+    state->statistics[index] =
+        ppmi_alloc_zeroed(job->context, points->count, sizeof **state->statistics);
+    if (!state->statistics[index]) return false;
+    for (size_t i = 0; i < points->count; i++) {
+        float scale = ppmi_photon_pass_first_scale(job);
+        if (!(job->options->radius_m > 0.0f)) {
+            ppmi_photon_pass_grow(job, &state->photons, &points->points[i], &scale);
+        }
+        state->statistics[index][i].now.scale = scale;
+    }
+    return true;
+}
+
+static ppm_status eye_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
+{
+    if (!(job->options->radius_m > 0.0f)) {
+        const ppm_status status = ppmi_photon_pass_run_pilot(job, &state->photons, stats);
+        if (status != PPM_STATUS_OK) return status;
+    }
+    const double start = omp_get_wtime();
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+    uint64_t rays = 0;
+    bool failed = false;
+#pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)             \
+    reduction(+ : rays) reduction(|| : failed)
+    for (uint32_t i = 0; i < tiles; i++) {
+        if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) {
+            failed = !trace_tile(job, state, i, &rays) || failed;
+        }
+    }
+    stats->rays += rays;
+    stats->eye_paths += ppmi_film_pixel_count(&job->film);
+    stats->seconds_eye += omp_get_wtime() - start;
+    if (failed) {
+        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY,
+                         "out of memory: visible points (a smaller split depth needs less)");
+    }
+    return atomic_load(job->cancel) ? PPM_STATUS_CANCELLED : PPM_STATUS_OK;
+}
+
+/* ---- epochs ---------------------------------------------------------------------------------- */
+
+static void add_to(float *sum, ppmi_vec3 radiance, double weight)
+{
+    vec3_store(sum, vec3_mad(vec3_load(sum), radiance, (float)weight));
+}
+
+/* Adds this epoch's picture, times its photons, to sums: stride floats a pixel. */
+static void add_epoch(const ppmi_job *job, const ppm_state *state, float *sums, size_t stride)
+{
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+    const double emitted = state->epoch_emitted;
+    for (size_t i = 0; i < pixels; i++)
+        add_to(sums + stride * i, state->direct[i], emitted);
+    for (uint32_t t = 0; t < tiles; t++) {
+        for (size_t i = 0; i < state->tiles[t].count; i++) {
+            const ppmi_visible_point *point = &state->tiles[t].points[i];
+            const ppmi_vec3 radiance = ppmi_statistics_radiance(&state->statistics[t][i].now,
+                                                                ppmi_dimension_of(point), emitted);
+            add_to(sums + stride * point->owner, radiance, emitted);
+        }
+    }
+}
+
+/* Whether the pass begins an epoch. */
+static bool is_due(const ppmi_job *job, const ppm_state *state)
+{
+    const uint64_t per_epoch = job->options->photons_per_epoch;
+    return !state->has_points || (per_epoch > 0 && state->epoch_emitted >= (double)per_epoch);
+}
+
+static ppm_status begin_epoch(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
+{
+    if (state->has_points) {
+        add_epoch(job, state, state->past, 3);
+        state->past_emitted += state->epoch_emitted;
+        state->epoch_emitted = 0.0;
+        state->epoch++;
+    }
+    free_points(job, state);
+    const ppm_status status = eye_pass(job, state, stats);
+    if (status != PPM_STATUS_OK) {
+        free_points(job, state);
+        /* the picture of the epochs before is still there */
+        memset(state->direct, 0, ppmi_film_pixel_count(&job->film) * sizeof *state->direct);
+        return status;
+    }
+    state->has_points = true;
+    return PPM_STATUS_OK;
+}
+
+/* ---- photon passes --------------------------------------------------------------------------- */
+
+static void gather_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
+{
+    const ppmi_visible_points *points = &state->tiles[index];
+    for (size_t i = 0; i < points->count; i++) {
+        const ppmi_visible_point *point = &points->points[i];
+        hit_statistics *statistics = &state->statistics[index][i];
+        statistics->next = statistics->now;
+        const float scale = statistics->now.scale;
+        const float unit = ppmi_photon_pass_unit(job, &state->photons, point, scale);
+        const ppmi_gathered gathered =
+            ppmi_photon_pass_gather(job, &state->photons, point, scale, unit);
+        ppmi_statistics_update(&statistics->next, ppmi_dimension_of(point), job->options->alpha,
+                               unit, gathered.flux, gathered.count);
+    }
+}
+
+static ppm_status gather_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
+{
+    const double start = omp_get_wtime();
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+#pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)
+    for (uint32_t i = 0; i < tiles; i++) {
+        if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) gather_tile(job, state, i);
+    }
+    stats->seconds_gather += omp_get_wtime() - start;
+    if (atomic_load(job->cancel)) return PPM_STATUS_CANCELLED;
+    for (uint32_t t = 0; t < tiles; t++) {
+        for (size_t i = 0; i < state->tiles[t].count; i++)
+            state->statistics[t][i].now = state->statistics[t][i].next;
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status ppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
+                           ppm_render_stats *stats)
+{
+    ppm_state *state = opaque;
+    ppm_render_stats added = *stats;
+    ppm_status status = PPM_STATUS_OK;
+    if (is_due(job, state)) {
+        status = begin_epoch(job, state, &added);
+        if (status != PPM_STATUS_OK) return status;
+    }
+    const double per_pass = (double)job->options->photons_per_pass;
+    const float passed = (float)(state->epoch_emitted / per_pass);
+    const float shrunk = powf(passed + 1.0f, 0.5f * (job->options->alpha - 1.0f));
+    status = ppmi_photon_pass_run(job, &state->photons, pass, shrunk, &added);
+    if (status == PPM_STATUS_OK) status = gather_pass(job, state, &added);
+    if (status != PPM_STATUS_OK) return status;
+    state->epoch_emitted += per_pass;
+    added.photons_emitted += job->options->photons_per_pass;
+    added.photons_stored += ppmi_photon_map_count(&state->photons.map);
+    *stats = added;
+    return PPM_STATUS_OK;
+}
+
+static void ppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passes, float *rgba)
+{
+    (void)passes; /* epochs are weighed by their photons */
+    const ppm_state *state = opaque;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    for (size_t i = 0; i < pixels; i++) {
+        memcpy(rgba + 4 * i, state->past + 3 * i, 3 * sizeof *rgba);
+        rgba[4 * i + 3] = 1.0f;
+    }
+    add_epoch(job, state, rgba, 4);
+    const float scale = (float)(1.0 / (state->past_emitted + state->epoch_emitted));
+    for (size_t i = 0; i < pixels; i++) {
+        vec3_store(rgba + 4 * i, vec3_scale(vec3_load(rgba + 4 * i), scale));
+    }
+}
+
+const ppmi_integrator ppmi_integrator_ppm = {
+    .name = "ppm",
+    .create = ppm_create,
+    .destroy = ppm_destroy,
+    .pass = ppm_pass,
+    .resolve = ppm_resolve,
+};

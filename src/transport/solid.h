@@ -1,0 +1,17 @@
+/* Crossing the surface of a solid: which indices lie on its two sides. */
+#ifndef PPMI_TRANSPORT_SOLID_H
+#define PPMI_TRANSPORT_SOLID_H
+
+#include "transport/world.h"
+
+/* At a hit of a solid by a ray along direction: corrects walker->interior to what the surface says
+ * lies before it, fills in vertex->behind, and takes in other surfaces at the same place. Returns
+ * false where both sides are the same to light (inside of a solid that counts for more): the ray
+ * goes on with vertex->behind. */
+bool ppmi_solid_arrive(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *vertex);
+
+/* The index ratio for the path, once it is known that the vertex stops it. Draws a wavelength where
+ * the solids disperse. */
+void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *vertex);
+
+#endif
