@@ -24,7 +24,7 @@ typedef struct eye_branch {
     ppmi_vec3 light_throughput; /* for emission that it meets next: all lobes, not the group's */
     float eta_scale;            /* of radiance by refraction, in both */
     float cone_width;
-    uint32_t depth, splits;
+    uint32_t depth, splits, media_splits;
     ppmi_interior interior; /* the walker's, while the branch waits */
     float wavelength_nm;
 } eye_branch;
@@ -39,6 +39,7 @@ typedef struct eye_path {
     ppmi_vec3 *radiance;
     eye_branch waiting[MAX_BRANCHES];
     uint32_t waiting_count;
+    bool is_out_of_memory;
 } eye_path;
 
 /* A vertex of a branch with what is there. */
@@ -63,7 +64,7 @@ static float footprint(const eye_branch *branch, const ppmi_bsdf *bsdf)
     return branch->cone_width / sqrtf(ppmi_max(cosine, 0.1f));
 }
 
-static bool record(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+static void record(eye_path *path, const eye_branch *branch, const eye_vertex *at,
                    float probability)
 {
     const ppmi_visible_point point = {
@@ -73,7 +74,9 @@ static bool record(eye_path *path, const eye_branch *branch, const eye_vertex *a
         .owner = path->owner,
         .bsdf = at->bsdf,
     };
-    return ppmi_visible_points_push(path->context, path->points, &point);
+    if (!ppmi_visible_points_push(path->context, path->points, &point)) {
+        path->is_out_of_memory = true;
+    }
 }
 
 /* The other half of MIS where the path gathers: a direction from the gathering lobes may meet a
@@ -116,11 +119,11 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
     walker->wavelength_nm = wavelength;
 }
 
-static bool gather(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+static void gather(eye_path *path, const eye_branch *branch, const eye_vertex *at,
                    float probability, bool is_split)
 {
     if (path->settings->samples_lights) add_bsdf_sampled_light(path, branch, at, is_split);
-    return record(path, branch, at, probability);
+    record(path, branch, at, probability);
 }
 
 /* ---- going on -------------------------------------------------------------------------------- */
@@ -227,12 +230,47 @@ static ppmi_vec3 sky(const eye_path *path, const eye_branch *branch)
     return ppmi_walk_environment(path->walker, branch->ray.direction, &branch->origin);
 }
 
+/* Gathers where a medium scatters the path on the way to its next vertex. */
+static void scatter_on_the_way(eye_path *path, const eye_branch *branch,
+                               const ppmi_vertex *scattered)
+{
+    eye_vertex at = {.vertex = *scattered};
+    eye_branch in_medium = *branch;
+    in_medium.throughput = vec3_mul(branch->throughput, scattered->transmittance);
+    in_medium.cone_width += path->cone_spread * scattered->distance;
+    ppmi_walk_bsdf(path->walker, &at.vertex, branch->ray.direction, &at.bsdf);
+    if (path->settings->samples_lights) {
+        add(path, in_medium.throughput, ppmi_walk_light_sample(path->walker, &at.vertex, &at.bsdf));
+    }
+    gather(path, &in_medium, &at, 1.0f, false);
+}
+
+/* Follows the branch's ray. A path in media goes both ways at first: what it meets in the medium is
+ * gathered at once. */
+static ppmi_arrival walk(eye_path *path, eye_branch *branch, ppmi_vertex *vertex)
+{
+    ppmi_walker *walker = path->walker;
+    const ppmi_ray_kind kind = branch->depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
+    if (!walker->world->has_scattering || branch->media_splits >= path->settings->media_depth) {
+        return ppmi_walk(walker, branch->ray, kind, vertex);
+    }
+    ppmi_vertex scattered;
+    const ppmi_interior before = walker->interior;
+    const ppmi_arrival arrival = ppmi_walk_both_ways(walker, branch->ray, kind, vertex, &scattered);
+    if (!scattered.medium) return arrival;
+    branch->media_splits++;
+    const ppmi_interior after = walker->interior;
+    walker->interior = before;
+    scatter_on_the_way(path, branch, &scattered);
+    walker->interior = after;
+    return arrival;
+}
+
 /* To the branch's next vertex, with the light that is met there. False where the branch ends. */
 static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
 {
     ppmi_walker *walker = path->walker;
-    const ppmi_ray_kind kind = branch->depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
-    const ppmi_arrival arrival = ppmi_walk(walker, branch->ray, kind, &at->vertex);
+    const ppmi_arrival arrival = walk(path, branch, &at->vertex);
     const ppmi_vec3 transmittance = at->vertex.transmittance;
     branch->throughput = vec3_mul(branch->throughput, transmittance);
     branch->light_throughput = vec3_mul(branch->light_throughput, transmittance);
@@ -250,8 +288,8 @@ static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
     return at->bsdf.lobes != 0;
 }
 
-/* Follows a branch to its end. False when memory is out. */
-static bool follow(eye_path *path, eye_branch branch)
+/* Follows a branch to its end. */
+static void follow(eye_path *path, eye_branch branch)
 {
     eye_vertex at;
     while (branch.depth < path->settings->max_depth && arrive(path, &branch, &at)) {
@@ -264,14 +302,15 @@ static bool follow(eye_path *path, eye_branch branch)
         if (may_split(path, &branch)) {
             const bool is_split = others != 0;
             split(path, &branch, &at, others);
-            return gathering <= 0.0f || gather(path, &branch, &at, 1.0f, is_split);
+            if (gathering > 0.0f) gather(path, &branch, &at, 1.0f, is_split);
+            return;
         }
         if (gathering > 0.0f && ppmi_walker_float(path->walker) < gathering) {
-            return gather(path, &branch, &at, gathering, false);
+            gather(path, &branch, &at, gathering, false);
+            return;
         }
-        if (!go_on(path, &branch, &at, others, 1.0f - gathering)) return true;
+        if (!go_on(path, &branch, &at, others, 1.0f - gathering)) return;
     }
-    return true;
 }
 
 bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
@@ -287,6 +326,7 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
     path.points = points;
     path.radiance = radiance;
     path.waiting_count = 1;
+    path.is_out_of_memory = false;
     path.waiting[0] = (eye_branch){
         .ray = camera_ray->ray,
         .origin = {.is_delta = true},
@@ -301,7 +341,7 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
         const eye_branch branch = path.waiting[--path.waiting_count];
         walker->interior = branch.interior;
         walker->wavelength_nm = branch.wavelength_nm;
-        if (!follow(&path, branch)) return false;
+        follow(&path, branch);
     }
-    return true;
+    return !path.is_out_of_memory;
 }

@@ -13,12 +13,14 @@ typedef struct ppmi_eye_settings {
     uint32_t max_depth;
     uint32_t split_depth; /* surfaces at which a path follows all its branches, at most
                              PPMI_MAX_SPLIT_DEPTH; beyond, and with 0, one is drawn */
+    uint32_t media_depth; /* segments through media at which a path goes both ways: it is scattered
+                             and arrives; beyond, one is drawn */
     bool samples_lights;  /* else photons bring all light that is met where they are gathered */
 } ppmi_eye_settings;
 
 /* Follows one camera path. Light that needs no photons (emission, the environment, light sampling)
- * is added to *radiance; visible points are appended to points, with owner: at most one without
- * splitting. False when memory is out. */
+ * is added to *radiance; visible points are appended to points, with owner: at most one if the path
+ * never splits. False when memory is out. */
 bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
                    const ppmi_eye_settings *settings, uint32_t owner, ppmi_visible_points *points,
                    ppmi_vec3 *radiance);

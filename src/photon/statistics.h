@@ -43,12 +43,12 @@ static inline float ppmi_extent_of(float s, ppmi_dimension dimension)
     return unit * ppmi_power_of(s, dimension);
 }
 
-/* flux: gathered, times the eye path's throughput; unit: side p of the footprint. */
+/* tau: what the pass's photons bring by footprint area or volume, times the eye path's throughput;
+ * count: of these photons. */
 static inline void ppmi_statistics_update(ppmi_gather_statistics *statistics,
-                                          ppmi_dimension dimension, float alpha, float unit,
-                                          ppmi_vec3 flux, float count)
+                                          ppmi_dimension dimension, float alpha, ppmi_vec3 tau,
+                                          float count)
 {
-    const ppmi_vec3 tau = vec3_scale(flux, 1.0f / ppmi_power_of(unit, dimension));
     if (!(count > 0.0f) || !vec3_is_finite(tau)) return;
     const float kept = statistics->count + alpha * count;
     const float g = kept / (statistics->count + count);

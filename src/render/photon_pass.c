@@ -107,6 +107,7 @@ ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)
         .max_depth = job->options->max_depth,
         .split_depth =
             splits && job->options->split_depth > 0 ? (uint32_t)job->options->split_depth : 0,
+        .media_depth = 2,
         .samples_lights = job->options->direct != PPM_DIRECT_PHOTONS,
     };
 }

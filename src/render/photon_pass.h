@@ -45,7 +45,7 @@ static inline float ppmi_photon_pass_unit(const ppmi_job *job, const ppmi_photon
 void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
                            const ppmi_visible_point *point, float *scale);
 
-/* Photons found around a point within scale footprints; flux includes the throughput. */
+/* Photons found around a point within scale times unit; flux includes the throughput. */
 static inline ppmi_gathered ppmi_photon_pass_gather(const ppmi_job *job,
                                                     const ppmi_photon_pass *photons,
                                                     const ppmi_visible_point *point, float scale,

@@ -203,8 +203,10 @@ static void gather_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
         const float unit = ppmi_photon_pass_unit(job, &state->photons, point, scale);
         const ppmi_gathered gathered =
             ppmi_photon_pass_gather(job, &state->photons, point, scale, unit);
-        ppmi_statistics_update(&statistics->next, ppmi_dimension_of(point), job->options->alpha,
-                               unit, gathered.flux, gathered.count);
+        const ppmi_dimension dimension = ppmi_dimension_of(point);
+        const ppmi_vec3 tau = vec3_scale(gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
+        ppmi_statistics_update(&statistics->next, dimension, job->options->alpha, tau,
+                               gathered.count);
     }
 }
 

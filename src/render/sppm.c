@@ -41,10 +41,11 @@ typedef struct tile_totals {
     bool failed;
 } tile_totals;
 
-/* One tile while it is rendered: the light of its pixels, and which point is whose. */
+/* One tile while it is rendered: the light of its pixels, and which points are whose. */
 typedef struct tile_eye {
     ppmi_vec3 radiance[PPMI_TILE_PIXELS];
-    const ppmi_visible_point *point[PPMI_TILE_PIXELS]; /* or NULL */
+    const ppmi_visible_point *points;
+    uint32_t first_point[PPMI_TILE_PIXELS + 1];
 } tile_eye;
 
 static void pixels_deinit(const ppmi_job *job, sppm_pixels *pixels)
@@ -111,7 +112,7 @@ static bool is_memoryless(const ppmi_job *job)
 
 /* ---- eye paths ------------------------------------------------------------------------------- */
 
-/* One path a pixel, each with one visible point at most. */
+/* One path a pixel. */
 static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_tile tile,
                        uint64_t pass, tile_eye *eye, uint64_t *rays)
 {
@@ -123,21 +124,36 @@ static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_ti
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
             const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, pass);
             eye->radiance[slot] = vec3_splat(0.0f);
+            eye->first_point[slot] = (uint32_t)points->count;
             if (!ppmi_eye_path(job->context, &walker, &ray, &settings, slot, points,
                                &eye->radiance[slot])) {
                 return false;
             }
         }
     }
-    for (uint32_t i = 0; i < slot; i++)
-        eye->point[i] = NULL;
-    for (size_t i = 0; i < points->count; i++)
-        eye->point[points->points[i].owner] = &points->points[i];
+    eye->first_point[slot] = (uint32_t)points->count;
+    eye->points = points->points;
     *rays += walker.rays;
     return true;
 }
 
 /* ---- the pilot ------------------------------------------------------------------------------- */
+
+/* By the first point of each kind. */
+static void grow_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
+                       uint32_t slot)
+{
+    bool has_grown[2] = {false, false};
+    for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++) {
+        const ppmi_visible_point *point = &eye->points[i];
+        const bool is_volume = ppmi_dimension_of(point) == PPMI_BALL;
+        if (has_grown[is_volume]) continue;
+        has_grown[is_volume] = true;
+        ppmi_gather_statistics *statistics =
+            is_volume ? &state->now.volumes[pixel] : &state->now.surfaces[pixel].surface;
+        ppmi_photon_pass_grow(job, &state->photons, point, &statistics->scale);
+    }
+}
 
 static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
 {
@@ -151,13 +167,8 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
-            const ppmi_visible_point *point = eye.point[slot];
-            if (!point) continue;
             const size_t pixel = (size_t)y * job->film.width + x;
-            ppmi_gather_statistics *statistics = ppmi_dimension_of(point) == PPMI_BALL
-                                                     ? &state->now.volumes[pixel]
-                                                     : &state->now.surfaces[pixel].surface;
-            ppmi_photon_pass_grow(job, &state->photons, point, &statistics->scale);
+            grow_pixel(job, state, pixel, &eye, slot);
         }
     }
     return true;
@@ -207,19 +218,27 @@ static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
     return vec3_scale(gathered.flux, (float)(1.0 / (emitted * extent)));
 }
 
-static void add_point(const ppmi_job *job, const sppm_state *state, const ppmi_visible_point *point,
-                      ppmi_gather_statistics *statistics, ppmi_vec3 *direct)
+/* What the photons of this pass bring to the pixel's points of one kind. */
+static void gather_points(const ppmi_job *job, const sppm_state *state, const tile_eye *eye,
+                          uint32_t slot, ppmi_dimension dimension,
+                          ppmi_gather_statistics *statistics, ppmi_vec3 *direct)
 {
-    if (is_memoryless(job)) {
-        const ppmi_vec3 radiance = estimate(job, state, point, statistics->scale);
-        if (vec3_is_finite(radiance)) *direct = vec3_add(*direct, radiance);
-        return;
+    ppmi_gathered sum = {0}; /* flux by footprint area or volume */
+    for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++) {
+        const ppmi_visible_point *point = &eye->points[i];
+        if (ppmi_dimension_of(point) != dimension) continue;
+        if (is_memoryless(job)) {
+            const ppmi_vec3 radiance = estimate(job, state, point, statistics->scale);
+            if (vec3_is_finite(radiance)) *direct = vec3_add(*direct, radiance);
+            continue;
+        }
+        const float unit = ppmi_photon_pass_unit(job, &state->photons, point, statistics->scale);
+        const ppmi_gathered gathered =
+            ppmi_photon_pass_gather(job, &state->photons, point, statistics->scale, unit);
+        sum.flux = vec3_mad(sum.flux, gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
+        sum.count += gathered.count;
     }
-    const float unit = ppmi_photon_pass_unit(job, &state->photons, point, statistics->scale);
-    const ppmi_gathered gathered =
-        ppmi_photon_pass_gather(job, &state->photons, point, statistics->scale, unit);
-    ppmi_statistics_update(statistics, ppmi_dimension_of(point), job->options->alpha, unit,
-                           gathered.flux, gathered.count);
+    ppmi_statistics_update(statistics, dimension, job->options->alpha, sum.flux, sum.count);
 }
 
 static void update_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
@@ -227,15 +246,13 @@ static void update_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, c
 {
     pixel_statistics next = state->now.surfaces[pixel];
     next.direct = vec3_add(next.direct, eye->radiance[slot]);
-    const ppmi_visible_point *point = eye->point[slot];
-    ppmi_gather_statistics volume = {0};
-    if (state->now.volumes) volume = state->now.volumes[pixel];
-    if (point) {
-        const bool is_volume = ppmi_dimension_of(point) == PPMI_BALL;
-        add_point(job, state, point, is_volume ? &volume : &next.surface, &next.direct);
+    gather_points(job, state, eye, slot, PPMI_DISK, &next.surface, &next.direct);
+    if (state->now.volumes) {
+        ppmi_gather_statistics volume = state->now.volumes[pixel];
+        gather_points(job, state, eye, slot, PPMI_BALL, &volume, &next.direct);
+        state->next.volumes[pixel] = volume;
     }
     state->next.surfaces[pixel] = next;
-    if (state->next.volumes) state->next.volumes[pixel] = volume;
 }
 
 static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, uint64_t pass,

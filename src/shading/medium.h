@@ -33,6 +33,11 @@ typedef struct ppmi_medium_sample {
 ppmi_medium_sample ppmi_medium_sample_distance(const ppmi_medium *medium, float length,
                                                float u_channel, float u);
 
+/* The same for a distance that must lie before the end, for a path that goes both ways: weight is
+ * transmittance by the density within length. False where nothing can scatter. */
+bool ppmi_medium_sample_within(const ppmi_medium *medium, float length, float u_channel, float u,
+                               float *out_distance, ppmi_vec3 *out_weight);
+
 /* Phase function by the cosine between the direction of flight before and after: 1/sr, integrates
  * to 1. */
 float ppmi_phase(float asymmetry_g, float cosine);

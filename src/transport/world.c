@@ -57,16 +57,45 @@ static void scatter_at(ppmi_vertex *vertex, const ppmi_medium *medium, const ppm
     vertex->distance += t;
 }
 
+/* Keeps one of the vertices that a path's segments offer, by how much each scatters (reservoir
+ * sampling): weights are divided by the chance of having been kept. */
+typedef struct scatter_choice {
+    ppmi_vertex *vertex;
+    float mass; /* of all that were offered */
+    float kept_mass;
+} scatter_choice;
+
+static void offer(ppmi_walker *walker, const ppmi_medium_span *span, const ppmi_ray *ray,
+                  ppmi_vec3 passing, const ppmi_vertex *arrival, scatter_choice *choice)
+{
+    const float length = span->end - span->begin;
+    float distance;
+    ppmi_vec3 weight;
+    const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
+    if (!ppmi_medium_sample_within(span->medium, length, u_channel, u, &distance, &weight)) return;
+    const float mass =
+        vec3_mean(vec3_mul(arrival->transmittance, vec3_sub(vec3_splat(1.0f), passing)));
+    choice->mass += mass;
+    if (!(mass > 0.0f) || ppmi_rng_float(&walker->rng) * choice->mass >= mass) return;
+    choice->kept_mass = mass;
+    *choice->vertex = (ppmi_vertex){.distance = arrival->distance,
+                                    .transmittance = vec3_mul(arrival->transmittance, weight)};
+    scatter_at(choice->vertex, span->medium, ray, span->begin + distance);
+}
+
 /* Takes the path through the medium before a hit (at t_max; infinite: none). False where it is
- * scattered on the way. */
-static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, ppmi_vertex *vertex)
+ * scattered on the way; a path with a choice never is, but offers it where it could be. */
+static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, ppmi_vertex *vertex,
+                         scatter_choice *choice)
 {
     const ppmi_medium_span span = ppmi_media_span(walker->world, &walker->interior, ray, t_max);
     if (!span.medium) return true;
     const float length = span.end - span.begin;
-    if (!ppmi_medium_scatters(span.medium)) {
-        vertex->transmittance =
-            vec3_mul(vertex->transmittance, ppmi_medium_transmittance(span.medium, length));
+    const bool scatters = ppmi_medium_scatters(span.medium);
+    if (!scatters || choice) {
+        const ppmi_vec3 passing = ppmi_medium_transmittance(span.medium, length);
+        if (scatters) offer(walker, &span, ray, passing, vertex, choice);
+        vertex->transmittance = vec3_mul(vertex->transmittance, passing);
         return true;
     }
     const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
@@ -78,10 +107,9 @@ static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, 
     return false;
 }
 
-ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
-                       ppmi_vertex *out_vertex)
+static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
+                         scatter_choice *choice)
 {
-    ppmi_vertex *vertex = out_vertex;
     vertex->medium = NULL;
     vertex->distance = 0.0f;
     vertex->transmittance = vec3_splat(1.0f);
@@ -91,7 +119,9 @@ ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
         const float t = vertex->hit.t;
         const bool is_solid = is_hit && vertex->surface.material->is_solid_glass;
         const bool is_seen = !is_solid || ppmi_solid_arrive(walker, ray.direction, vertex);
-        if (!cross_medium(walker, &ray, is_hit ? t : INFINITY, vertex)) return PPMI_IN_MEDIUM;
+        if (!cross_medium(walker, &ray, is_hit ? t : INFINITY, vertex, choice)) {
+            return PPMI_IN_MEDIUM;
+        }
         if (!is_hit) return PPMI_ESCAPED;
         vertex->distance += t;
         if (!is_seen) {
@@ -108,6 +138,25 @@ ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
     }
     vertex->transmittance = vec3_splat(0.0f);
     return PPMI_ESCAPED;
+}
+
+ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                       ppmi_vertex *out_vertex)
+{
+    return walk(walker, ray, kind, out_vertex, NULL);
+}
+
+ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered)
+{
+    out_scattered->medium = NULL;
+    scatter_choice choice = {.vertex = out_scattered};
+    const ppmi_arrival arrival = walk(walker, ray, kind, out_vertex, &choice);
+    if (out_scattered->medium) {
+        out_scattered->transmittance =
+            vec3_scale(out_scattered->transmittance, choice.mass / choice.kept_mass);
+    }
+    return arrival;
 }
 
 static ppmi_vec3 media_transmittance(const ppmi_world *world, const ppmi_interior *interior,

@@ -115,6 +115,12 @@ typedef enum ppmi_arrival { PPMI_AT_SURFACE, PPMI_IN_MEDIUM, PPMI_ESCAPED } ppmi
 ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
                        ppmi_vertex *out_vertex);
 
+/* The same for a path that goes both ways at media: it always arrives, with the media's
+ * transmittance as weight, and *out_scattered is a vertex drawn from the media on the way, with its
+ * own (medium NULL where there is none). */
+ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered);
+
 /* Light that passes along a ray (unit direction) up to t_max, from within interior: 0 behind
  * anything opaque, else the product of 1 - opacity through alpha and of the media's transmittance.
  */
