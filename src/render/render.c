@@ -14,6 +14,7 @@ struct ppm_render {
     ppmi_lights *lights;
     ppmi_albedo_table *albedo;
     ppmi_spectrum *spectrum;
+    ppmi_contacts *contacts;
     const ppmi_integrator *integrator;
     void *state;
     ppmi_job job;
@@ -186,6 +187,9 @@ static ppm_status build_world(ppm_render *render)
     if (status == PPM_STATUS_OK) {
         status = ppmi_lights_create(render->context, render->scene, &render->lights);
     }
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_contacts_create(render->context, render->scene, &render->contacts);
+    }
     return status;
 }
 
@@ -212,7 +216,7 @@ static ppm_status start(ppm_render *render)
         .cancel = &render->cancel,
     };
     ppmi_world_init(&render->job.world, render->scene, render->accel, render->lights,
-                    render->albedo, render->spectrum);
+                    render->albedo, render->spectrum, render->contacts);
     const uint32_t *crop = render->options.crop;
     render->job.film = (ppmi_film){crop[0], crop[1], crop[2] - crop[0], crop[3] - crop[1]};
     ppmi_camera_view_init(&render->scene->cameras[render->options.camera - 1],
@@ -257,6 +261,7 @@ void ppm_render_destroy(ppm_render *render)
 {
     if (!render) return;
     if (render->state) render->integrator->destroy(&render->job, render->state);
+    ppmi_contacts_destroy(render->context, render->contacts);
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);
     ppmi_free(render->context, render->albedo);

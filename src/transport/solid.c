@@ -42,6 +42,10 @@ static void cross_touching(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex
     const float cosine = ppmi_max(fabsf(vec3_dot(direction, vertex->surface.ng)), 0.05f);
     const ppmi_hit own = vertex->hit;
     const float depth = window / cosine;
+    if (!ppmi_contacts_may_touch(world->contacts, own.instance, own.primitive,
+                                 vertex->surface.position, depth)) {
+        return;
+    }
     const float back = ppmi_min(depth, 0.9f * vertex->hit.t); /* not behind where the ray began */
     ppmi_ray probe = {.origin = vec3_mad(vertex->surface.position, direction, -back),
                       .t_max = back + depth,

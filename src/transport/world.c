@@ -9,10 +9,14 @@ enum { MAX_SURFACES_PASSED = 256 };
 
 void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
                      const ppmi_lights *lights, const ppmi_albedo_table *albedo,
-                     const ppmi_spectrum *spectrum)
+                     const ppmi_spectrum *spectrum, const ppmi_contacts *contacts)
 {
-    *world = (ppmi_world){
-        .scene = scene, .accel = accel, .lights = lights, .albedo = albedo, .spectrum = spectrum};
+    *world = (ppmi_world){.scene = scene,
+                          .accel = accel,
+                          .lights = lights,
+                          .albedo = albedo,
+                          .spectrum = spectrum,
+                          .contacts = contacts};
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const ppmi_material *material = &scene->materials[i];
         world->has_alpha = world->has_alpha || material->has_alpha;

@@ -7,6 +7,7 @@
 #include "math/sampler.h"
 #include "shading/bsdf.h"
 #include "shading/spectrum.h"
+#include "transport/contact.h"
 #include "transport/interior.h"
 
 /* Everything is const while paths are traced. */
@@ -16,6 +17,7 @@ typedef struct ppmi_world {
     const ppmi_lights *lights;
     const ppmi_albedo_table *albedo;
     const ppmi_spectrum *spectrum;
+    const ppmi_contacts *contacts;
     bool has_alpha; /* some material lets rays pass */
     bool has_fog;
     bool has_scattering;  /* some medium scatters */
@@ -26,7 +28,7 @@ typedef struct ppmi_world {
 /* Fills in a world over parts that must outlive it; the scene is frozen. */
 void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
                      const ppmi_lights *lights, const ppmi_albedo_table *albedo,
-                     const ppmi_spectrum *spectrum);
+                     const ppmi_spectrum *spectrum, const ppmi_contacts *contacts);
 
 /* What one path changes.
  *

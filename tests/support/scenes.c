@@ -201,13 +201,17 @@ void world_open(test_world *test, const test_scene *scene)
     assert_int_equal(ppmi_accel_create(scene->context, scene->scene, &test->accel), PPM_STATUS_OK);
     assert_int_equal(ppmi_lights_create(scene->context, scene->scene, &test->lights),
                      PPM_STATUS_OK);
+    assert_int_equal(ppmi_contacts_create(scene->context, scene->scene, &test->contacts),
+                     PPM_STATUS_OK);
+    test->context = scene->context;
     test->albedo = shared_albedo();
     ppmi_world_init(&test->world, scene->scene, test->accel, test->lights, test->albedo,
-                    shared_spectrum());
+                    shared_spectrum(), test->contacts);
 }
 
 void world_close(test_world *test)
 {
+    ppmi_contacts_destroy(test->context, test->contacts);
     ppmi_lights_destroy(test->lights);
     ppmi_accel_destroy(test->accel);
 }

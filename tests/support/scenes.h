@@ -46,6 +46,8 @@ typedef struct test_world {
     ppmi_world world;
     ppmi_accel *accel;
     ppmi_lights *lights;
+    ppmi_contacts *contacts;
+    ppm_context *context;
     const ppmi_albedo_table *albedo;
 } test_world;
 
