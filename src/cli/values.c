@@ -66,6 +66,26 @@ bool value_parse_real(const char *text, double *out_value)
     return true;
 }
 
+bool value_parse_reals(const char *text, size_t most, double *values, size_t *out_count)
+{
+    enum { MOST = 8, LETTERS_MAX = 64 };
+    double found[MOST];
+    size_t count = 0;
+    for (const char *end = text; end; text = end + 1) {
+        char word[LETTERS_MAX];
+        end = strchr(text, ',');
+        const size_t length = end ? (size_t)(end - text) : strlen(text);
+        if (count == most || count == MOST || length >= sizeof word) return false;
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (!value_parse_real(word, &found[count++])) return false;
+        if (!end) break;
+    }
+    memcpy(values, found, count * sizeof *found);
+    *out_count = count;
+    return true;
+}
+
 bool value_parse_size(const char *text, uint32_t *out_width, uint32_t *out_height)
 {
     uint64_t width = 0, height = 0;

@@ -69,7 +69,8 @@ static ppmi_vec3 offset_on_box(const ppmi_light_extent *extent, ppmi_vec3 direct
     const ppmi_vec3 h = extent->half;
     const ppmi_vec3 lit = vec3(copysignf(h.x, -direction.x), copysignf(h.y, -direction.y),
                                copysignf(h.z, -direction.z));
-    const float others = faces.y + faces.z;
+    const float tiny = 1e-30f; /* an empty scene has no shadow to share */
+    const float others = ppmi_max(faces.y + faces.z, tiny);
     const float b = 2.0f * v - 1.0f;
     if (take_share(&u, faces.x / (faces.x + others))) {
         return vec3(lit.x, h.y * (2.0f * u - 1.0f), h.z * b);
