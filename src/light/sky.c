@@ -146,7 +146,6 @@ ppmi_sky ppmi_sky_of(float elevation_rad, float azimuth_rad, float turbidity)
     ppmi_sky sky = {
         .to_sun =
             vec3(across * sinf(azimuth_rad), sinf(elevation_rad), -across * cosf(azimuth_rad)),
-        .sun_zenith_rad = angle,
         .normalized = {zenith_luminance(turbidity, angle),
                        zenith_chromaticity(zenith_fits[0], turbidity, angle),
                        zenith_chromaticity(zenith_fits[1], turbidity, angle)},

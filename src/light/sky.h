@@ -10,11 +10,10 @@
 #define PPMI_SUN_ANGULAR_RADIUS_RAD 0.00465130f
 
 typedef struct ppmi_sky {
-    ppmi_vec3 to_sun;     /* unit */
-    float sun_zenith_rad; /* angle from straight up */
-    float perez[3][5];    /* A .. E of luminance Y and of the chromaticities x and y */
-    float normalized[3];  /* Y (nit), x and y at the zenith over their distribution there */
-    ppmi_vec3 sun_lux;    /* on a plane that faces the sun, linear Rec.709 */
+    ppmi_vec3 to_sun;    /* unit */
+    float perez[3][5];   /* A .. E of luminance Y and of the chromaticities x and y */
+    float normalized[3]; /* Y (nit), x and y at the zenith over their distribution there */
+    ppmi_vec3 sun_lux;   /* on a plane that faces the sun, linear Rec.709 */
 } ppmi_sky;
 
 /* elevation_rad: 0 .. pi/2; azimuth_rad: clockwise from north (-Z) seen from above, east is +X;

@@ -92,12 +92,9 @@ static void maps_have_their_densities(void **state)
     const struct {
         const char *name;
         square (*map)(float, float);
-    } maps[] = {{"disk", disk},
-                {"cosine hemisphere", cosine_hemisphere},
-                {"sphere", sphere},
-                {"cone", cone},
-                {"cap", cap},
-                {"triangle", triangle}};
+    } maps[] = {{"disk", disk},     {"cosine hemisphere", cosine_hemisphere},
+                {"sphere", sphere}, {"cone", cone},
+                {"cap", cap},       {"triangle", triangle}};
     test_family family = {0};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         family_add(&family, even_p(maps[i].map, i), "%s", maps[i].name);
