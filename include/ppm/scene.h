@@ -223,9 +223,12 @@ typedef struct ppm_light_desc {
     const char *name;
     int32_t kind;
     float transform[16];
-    float intensity[3];   /* linear Rec.709: candela (point, spot) or lux (directional) */
-    float inner_cone_rad; /* spot: half angle of full intensity */
-    float outer_cone_rad; /* spot: half angle where it ends, <= pi/2 */
+    float intensity[3];       /* linear Rec.709: candela (point, spot) or lux (directional) */
+    float inner_cone_rad;     /* spot: half angle of full intensity */
+    float outer_cone_rad;     /* spot: half angle where it ends, <= pi/2 */
+    float angular_radius_rad; /* directional: the light comes from a disk in the sky of this radius
+                                 and of even radiance, which can be seen; < pi/2. Less than 1e-4 is
+                                 taken as 0: parallel light */
 } ppm_light_desc;
 
 PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
@@ -245,6 +248,28 @@ typedef struct ppm_environment_desc {
  * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
  * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
+
+/* A clear sky with its sun (Preetham, Shirley, Smits 1999), in nit and lux. Fill with
+ * ppm_sun_sky_desc_init first. */
+typedef struct ppm_sun_sky_desc {
+    uint32_t size;       /* sizeof(ppm_sun_sky_desc) */
+    float elevation_rad; /* of the sun above the horizon, 0 .. pi/2; default pi/4 */
+    float azimuth_rad; /* clockwise seen from above, from north (-Z) by east (+X); default 3/4 pi */
+    float turbidity;   /* 2 (very clear) .. 10 (hazy); default 3 */
+    float factor;      /* on the light of sun and sky, 0 .. 1e9; default 1 */
+    float ground_albedo; /* below the horizon the sky's image shows level ground in this light;
+                            0 .. 1; default 0.2 */
+    uint32_t sun_only;   /* non-zero: the environment stays as it is; default 0 */
+} ppm_sun_sky_desc;
+
+/* Fills in the defaults and size. */
+PPM_API void ppm_sun_sky_desc_init(ppm_sun_sky_desc *desc);
+
+/* Sets the environment to the sky, a generated image, with the backdrop that it had; and adds the
+ * sun, a directional light of angular radius 0.2665 degrees. out_sun may be NULL.
+ * Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_add_sun_sky(ppm_scene *scene, const ppm_sun_sky_desc *desc,
+                                         ppm_light_id *out_sun);
 
 /* ---- fog ------------------------------------------------------------------------------------- */
 

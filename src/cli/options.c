@@ -16,16 +16,18 @@
 enum { DEFAULT_PASSES = 256, DEFAULT_PHOTONS_PER_EPOCH = 10000000 };
 
 typedef enum value_kind {
-    VALUE_SET,     /* no argument: stores .set in an int32_t */
-    VALUE_TEXT,    /* const char * */
-    VALUE_OUTPUT,  /* one more of the cli_outputs */
-    VALUE_INTEGER, /* uint64_t */
-    VALUE_COUNT,   /* uint64_t, with k, M, G */
-    VALUE_REAL,    /* double */
-    VALUE_SIZE,    /* image_size */
-    VALUE_FOG,     /* fog_values */
-    VALUE_SPLIT,   /* int32_t: a number, 0 stored as -1 */
-    VALUE_CHOICE   /* int32_t, from a list of names */
+    VALUE_SET,        /* no argument: stores .set in an int32_t */
+    VALUE_TEXT,       /* const char * */
+    VALUE_OUTPUT,     /* one more of the cli_outputs */
+    VALUE_INTEGER,    /* uint64_t */
+    VALUE_COUNT,      /* uint64_t, with k, M, G */
+    VALUE_REAL,       /* double */
+    VALUE_SIZE,       /* image_size */
+    VALUE_SUN,        /* sun_choice */
+    VALUE_BACKGROUND, /* background_choice */
+    VALUE_FOG,        /* fog_values */
+    VALUE_SPLIT,      /* int32_t: a number, 0 stored as -1 */
+    VALUE_CHOICE      /* int32_t, from a list of names */
 } value_kind;
 
 typedef struct choice {
@@ -123,6 +125,18 @@ static const option_row rows[] = {
              "without a camera is shown whole)"},
     {"env", 0, VALUE_TEXT, FIELD(environment), .argument = "FILE",
      .help = "light from a latitude-longitude picture, besides INPUT's lights"},
+    {"env-rotation", 0, VALUE_REAL, FIELD(environment_rotation_deg), .low = -360, .high = 360,
+     .argument = "DEGREES",
+     .help = "turns that picture, counter-clockwise seen from above (default: 0)"},
+    {"env-intensity", 0, VALUE_REAL, FIELD(environment_intensity), .low = 1e-9, .high = 1e9,
+     .argument = "FACTOR", .help = "of that picture, and of --sun with its sky (default: 1)"},
+    {"sun", 0, VALUE_SUN, FIELD(sun), .argument = "ELEVATION,AZIMUTH[,TURBIDITY]",
+     .help = "a clear sky with its sun: degrees above the horizon, degrees\n"
+             "clockwise from north (-Z), haze 2 .. 10 (default: 3); with\n"
+             "--env the sun only"},
+    {"background", 0, VALUE_BACKGROUND, FIELD(background), .argument = "WHAT",
+     .help = "what the camera sees where nothing is: env, black, a grey 0.5\n"
+             "or 0.1,0.2,0.3 (default: env; grey for a scene without light)"},
     {"fog", 0, VALUE_FOG, FIELD(fog), .argument = "S,A[,G]",
      .help = "fog around everything: scattering and absorption per metre;\n"
              "G from -1 to 1 scatters backwards or forwards (default: 0)"},
@@ -163,10 +177,13 @@ static void print_row(FILE *stream, const option_row *row)
     if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
     int column = fprintf(stream, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "",
                          row->argument ? row->argument : "");
+    if (column >= HELP_COLUMN) {
+        fputc('\n', stream);
+        column = 0;
+    }
     for (const char *line = row->help; line;) {
         const size_t length = strcspn(line, "\n");
-        fprintf(stream, "%*s%.*s\n", column < HELP_COLUMN ? HELP_COLUMN - column : 1, "",
-                (int)length, line);
+        fprintf(stream, "%*s%.*s\n", HELP_COLUMN - column, "", (int)length, line);
         line = line[length] ? line + length + 1 : NULL;
         column = 0;
     }
@@ -280,9 +297,10 @@ static int store_size(const option_row *row, const char *text, image_size *field
 static int store_fog(const option_row *row, const char *text, fog_values *field)
 {
     double values[3] = {0.0, 0.0, 0.0};
-    uint32_t count = 0;
-    if (!value_parse_reals(text, 2, 3, values, &count) || values[0] < 0.0 || values[1] < 0.0 ||
-        values[0] > 1e9 || values[1] > 1e9 || !(values[2] > -1.0 && values[2] < 1.0)) {
+    size_t count = 0;
+    if (!value_parse_reals(text, 3, values, &count) || count < 2 || values[0] < 0.0 ||
+        values[1] < 0.0 || values[0] > 1e9 || values[1] > 1e9 ||
+        !(values[2] > -1.0 && values[2] < 1.0)) {
         return complain(row, text,
                         "like 0.1,0.01 or 0.1,0.01,0.5: two coefficients of at least 0 and "
                         "a number between -1 and 1");
@@ -297,6 +315,51 @@ static int store_split(const option_row *row, const char *text, int32_t *field)
     const int status = store_integer(row, text, &value);
     if (status == EXIT_DONE) *field = value == 0 ? -1 : (int32_t)value;
     return status;
+}
+
+static int store_sun(const option_row *row, const char *text, sun_choice *field)
+{
+    double values[3] = {0.0, 0.0, 0.0};
+    size_t count = 0;
+    if (!value_parse_reals(text, 3, values, &count) || count < 2) {
+        return complain(row, text, "ELEVATION,AZIMUTH[,TURBIDITY] like 35,160 or 35,160,3");
+    }
+    if (values[0] < 0.0 || values[0] > 90.0) {
+        return complain(row, text, "a sun with an elevation from 0 to 90 degrees");
+    }
+    if (values[1] < -360.0 || values[1] > 360.0) {
+        return complain(row, text, "a sun with an azimuth from -360 to 360 degrees");
+    }
+    if (count == 3 && !(values[2] >= 2.0 && values[2] <= 10.0)) {
+        return complain(row, text, "a sun with a turbidity from 2 to 10");
+    }
+    *field = (sun_choice){.is_given = 1,
+                          .elevation_deg = values[0],
+                          .azimuth_deg = values[1],
+                          .turbidity = values[2]};
+    return EXIT_DONE;
+}
+
+static int store_background(const option_row *row, const char *text, background_choice *field)
+{
+    const double most = 1e9;
+    double rgb[3] = {0.0, 0.0, 0.0};
+    size_t count = 1;
+    if (strcmp(text, "env") == 0) {
+        *field = (background_choice){.kind = BACKGROUND_ENVIRONMENT};
+        return EXIT_DONE;
+    }
+    bool is_valid = strcmp(text, "black") == 0;
+    if (!is_valid) is_valid = value_parse_reals(text, 3, rgb, &count) && count != 2;
+    if (count == 1) rgb[1] = rgb[2] = rgb[0];
+    for (int i = 0; i < 3; i++)
+        is_valid = is_valid && rgb[i] >= 0.0 && rgb[i] <= most;
+    if (!is_valid) {
+        return complain(row, text, "env, black, or a radiance from 0 to 1e+09: 0.5 or 0.1,0.2,0.3");
+    }
+    *field = (background_choice){.kind = BACKGROUND_RADIANCE,
+                                 .radiance = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}};
+    return EXIT_DONE;
 }
 
 static int store_choice(const option_row *row, const char *text, int32_t *field)
@@ -346,6 +409,10 @@ static int store(const option_row *row, const char *text, cli_options *options)
         return store_fog(row, text, field);
     case VALUE_SPLIT:
         return store_split(row, text, field);
+    case VALUE_SUN:
+        return store_sun(row, text, field);
+    case VALUE_BACKGROUND:
+        return store_background(row, text, field);
     case VALUE_CHOICE:
         return store_choice(row, text, field);
     }
@@ -435,6 +502,23 @@ static int parse_words(int argc, char **argv, cli_options *options)
     }
 }
 
+/* An option that would do nothing is a mistake. */
+static int check_together(const cli_options *options)
+{
+    if (options->environment_rotation_deg != 0.0 && !options->environment) {
+        fputs("ppm-render: error: --env-rotation turns the picture of --env, which is not given\n",
+              stderr);
+        return give_hint();
+    }
+    if (options->environment_intensity > 0.0 && !options->environment && !options->sun.is_given) {
+        fputs("ppm-render: error: --env-intensity is about --env and --sun, neither of which is "
+              "given\n",
+              stderr);
+        return give_hint();
+    }
+    return EXIT_DONE;
+}
+
 int cli_options_parse(int argc, char **argv, cli_options *out_options)
 {
     memset(out_options, 0, sizeof *out_options);
@@ -468,7 +552,7 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
     if (out_options->passes == 0 && !(out_options->seconds > 0.0)) {
         out_options->passes = DEFAULT_PASSES;
     }
-    return EXIT_DONE;
+    return check_together(out_options);
 }
 
 void cli_options_deinit(cli_options *options)

@@ -32,6 +32,18 @@ typedef struct image_size {
 typedef struct fog_values {
     double sigma_s, sigma_a, g;
 } fog_values;
+/* What the camera sees straight ahead where nothing is. */
+enum { BACKGROUND_UNSAID = 0, BACKGROUND_ENVIRONMENT, BACKGROUND_RADIANCE };
+typedef struct background_choice {
+    int32_t kind; /* BACKGROUND_ */
+    float radiance[3];
+} background_choice;
+
+typedef struct sun_choice {
+    int32_t is_given;
+    double elevation_deg, azimuth_deg;
+    double turbidity; /* 0: not said */
+} sun_choice;
 
 /* 0 or NULL: not given, unless a comment says otherwise. Strings belong to argv. */
 typedef struct cli_options {
@@ -61,6 +73,10 @@ typedef struct cli_options {
 
     const char *camera;
     const char *environment;
+    double environment_rotation_deg;
+    double environment_intensity;
+    sun_choice sun;
+    background_choice background;
     fog_values fog;
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */

@@ -1,19 +1,70 @@
 /* The library's own checks come last: what only the scene can tell, such as a camera's name. */
 #include "setup.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggest.h"
 #include "values.h"
 
-static ppm_status add_environment(ppm_scene *scene, const char *path)
+static float radians(double degrees)
 {
-    const ppm_image_desc image = {
-        .size = sizeof image, .name = path, .role = PPM_IMAGE_COLOR, .path = path};
-    ppm_environment_desc environment = {.size = sizeof environment, .radiance = {1.0f, 1.0f, 1.0f}};
-    const ppm_status status = ppm_scene_add_image(scene, &image, &environment.image);
-    return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;
+    return (float)(degrees * 3.14159265358979323846 / 180.0);
+}
+
+static float intensity_of(const cli_options *options)
+{
+    return options->environment_intensity > 0.0 ? (float)options->environment_intensity : 1.0f;
+}
+
+/* The radiance of all directions while no picture and no sky is asked for. A file without any light
+ * gets an even one; the library would add it by itself, with a backdrop of its own. */
+static ppm_status default_radiance(const ppm_scene *scene, const cli_options *options,
+                                   float *out_radiance)
+{
+    ppm_scene_info info = {.size = sizeof info};
+    const ppm_status status = ppm_scene_get_info(scene, &info);
+    *out_radiance = info.has_light || options->sun.is_given ? 0.0f : 1.0f;
+    return status;
+}
+
+static ppm_status set_environment(ppm_scene *scene, const cli_options *options)
+{
+    const background_choice *const background = &options->background;
+    ppm_environment_desc environment = {
+        .size = sizeof environment,
+        .rotation_rad = radians(options->environment_rotation_deg),
+        .has_backdrop = background->kind == BACKGROUND_RADIANCE,
+        .backdrop = {background->radiance[0], background->radiance[1], background->radiance[2]},
+    };
+    float radiance = intensity_of(options);
+    ppm_status status;
+    if (options->environment) {
+        const ppm_image_desc image = {.size = sizeof image,
+                                      .name = options->environment,
+                                      .role = PPM_IMAGE_COLOR,
+                                      .path = options->environment};
+        status = ppm_scene_add_image(scene, &image, &environment.image);
+    } else {
+        status = default_radiance(scene, options, &radiance);
+    }
+    if (status != PPM_STATUS_OK) return status;
+    for (int i = 0; i < 3; i++)
+        environment.radiance[i] = radiance;
+    return ppm_scene_set_environment(scene, &environment);
+}
+
+static ppm_status add_sun(ppm_scene *scene, const cli_options *options)
+{
+    ppm_sun_sky_desc desc;
+    ppm_sun_sky_desc_init(&desc);
+    desc.elevation_rad = radians(options->sun.elevation_deg);
+    desc.azimuth_rad = radians(options->sun.azimuth_deg);
+    if (options->sun.turbidity > 0.0) desc.turbidity = (float)options->sun.turbidity;
+    desc.factor = intensity_of(options);
+    desc.sun_only = options->environment != NULL;
+    return ppm_scene_add_sun_sky(scene, &desc, NULL);
 }
 
 static ppm_status add_fog(ppm_scene *scene, const fog_values *fog)
@@ -32,9 +83,10 @@ int setup_scene(ppm_scene *scene, const cli_options *options)
                                                .light_units = options->light_units,
                                                .transmission = options->transmission};
     ppm_status status = ppm_scene_import(scene, options->input, &import_options);
-    if (status == PPM_STATUS_OK && options->environment) {
-        status = add_environment(scene, options->environment);
-    }
+    const bool has_surroundings =
+        options->environment || options->background.kind != BACKGROUND_UNSAID;
+    if (status == PPM_STATUS_OK && has_surroundings) status = set_environment(scene, options);
+    if (status == PPM_STATUS_OK && options->sun.is_given) status = add_sun(scene, options);
     if (status == PPM_STATUS_OK) status = add_fog(scene, &options->fog);
     return exit_status_of(status, EXIT_INPUT);
 }

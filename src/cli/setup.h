@@ -6,8 +6,8 @@
 #include "options.h"
 #include "ppm/ppm.h"
 
-/* Imports INPUT and the environment into scene. Returns an exit status; the library has said what
- * is wrong. */
+/* Imports INPUT into scene, and adds the environment and the sun that are asked for. Returns an
+ * exit status; the library has said what is wrong. */
 int setup_scene(ppm_scene *scene, const cli_options *options);
 
 /* Fills in the settings, with the camera looked up. Returns EXIT_DONE, EXIT_USAGE (no such camera)

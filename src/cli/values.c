@@ -66,25 +66,22 @@ bool value_parse_real(const char *text, double *out_value)
     return true;
 }
 
-bool value_parse_reals(const char *text, uint32_t least, uint32_t most, double *out_values,
-                       uint32_t *out_count)
+bool value_parse_reals(const char *text, size_t most, double *values, size_t *out_count)
 {
-    enum { LONGEST = 64 };
-    double values[16];
-    uint32_t count = 0;
-    for (;;) {
-        char word[LONGEST];
-        const size_t length = strcspn(text, ",");
-        if (count == most || count == 16 || length >= sizeof word) return false;
+    enum { MOST = 8, LETTERS_MAX = 64 };
+    double found[MOST];
+    size_t count = 0;
+    for (const char *end = text; end; text = end + 1) {
+        char word[LETTERS_MAX];
+        end = strchr(text, ',');
+        const size_t length = end ? (size_t)(end - text) : strlen(text);
+        if (count == most || count == MOST || length >= sizeof word) return false;
         memcpy(word, text, length);
         word[length] = '\0';
-        if (!value_parse_real(word, &values[count])) return false;
-        count++;
-        if (text[length] == '\0') break;
-        text += length + 1;
+        if (!value_parse_real(word, &found[count++])) return false;
+        if (!end) break;
     }
-    if (count < least) return false;
-    memcpy(out_values, values, count * sizeof *values);
+    memcpy(values, found, count * sizeof *found);
     *out_count = count;
     return true;
 }

@@ -21,27 +21,30 @@ typedef struct ppmi_light_sample {
     ppmi_vec3 wi;       /* towards the light, unit */
     ppmi_vec3 target;   /* point on the light, moved off its surface by the error bound; not set for
                            far lights */
-    bool is_far;        /* directional light or environment */
+    bool is_far;        /* directional light, sun or environment */
     ppmi_vec3 radiance; /* for delta lights: irradiance on a plane that faces them */
     float pdf;          /* by solid angle, choice included; of the choice alone for delta lights */
     bool is_delta;
 } ppmi_light_sample;
 
-/* Samples one light for a surface at position with shading normal n (on the side that receives).
- * False when nothing arrives. */
+/* Samples one light for a surface at position with shading normal n (on the side that receives), or
+ * for a point in a medium: n is then 0, and light from every side counts. False when nothing
+ * arrives. */
 bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
                         float u, float v, ppmi_light_sample *out_sample);
 
 /* Density with which ppmi_lights_sample, at a point from, draws the emissive surface (on it, at
- * distance along wi) or the environment in direction wi. */
+ * distance along wi) or far light in direction wi: the environment or any directional light that
+ * has a size. n as in ppmi_lights_sample. */
 float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
                               const ppmi_surface *surface, ppmi_vec3 wi, float distance);
 float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi);
 
-/* Radiance of the environment from direction wi. */
+/* Radiance from infinitely far in direction wi: the environment's and that of all directional
+ * lights whose disk holds wi. */
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi);
 
-/* What a camera ray sees that meets nothing: the backdrop, or else the environment. */
+/* What a camera ray sees that meets nothing: the backdrop, or else what is infinitely far. */
 ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction);
 
 /* A photon as it leaves a light. power is that of all light through this one photon: divide by the

@@ -45,6 +45,15 @@ static inline ppmi_vec3 ppmi_sample_sphere(float u, float v)
     return ppmi_direction_at(1.0f - 2.0f * u, v);
 }
 
+/* Density 1 / (2 pi height) on the part of the unit sphere with z >= 1 - height; exact for caps so
+ * small that a cosine could not tell their points apart. */
+static inline ppmi_vec3 ppmi_sample_cap(float height, float u, float v)
+{
+    const float depth = u * height;
+    const float sin_theta = sqrtf(depth * (2.0f - depth)), phi = 2.0f * PPMI_PI * v;
+    return vec3(sin_theta * cosf(phi), sin_theta * sinf(phi), 1.0f - depth);
+}
+
 /* Density 1 / (2 pi (1 - cos_max)) on the cone around +z. */
 static inline ppmi_vec3 ppmi_sample_cone(float cos_max, float u, float v)
 {

@@ -133,14 +133,18 @@ ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect, ppm_came
     return ppm_scene_add_camera(scene, &desc, out_id);
 }
 
+/* Smaller disks could not be told from their middle in single precision. */
+static const float least_angular_radius = 1e-4f;
+
 static bool light_is_valid(const ppm_light_desc *desc)
 {
     for (uint32_t i = 0; i < 3; i++) {
         if (!(desc->intensity[i] >= 0.0f && desc->intensity[i] < 1e18f)) return false;
     }
-    if (desc->kind != PPM_LIGHT_SPOT) {
-        return desc->kind == PPM_LIGHT_POINT || desc->kind == PPM_LIGHT_DIRECTIONAL;
+    if (desc->kind == PPM_LIGHT_DIRECTIONAL) {
+        return desc->angular_radius_rad >= 0.0f && desc->angular_radius_rad < 0.5f * PPMI_PI;
     }
+    if (desc->kind != PPM_LIGHT_SPOT) return desc->kind == PPM_LIGHT_POINT;
     return desc->inner_cone_rad >= 0.0f && desc->outer_cone_rad > 0.0f &&
            desc->inner_cone_rad <= desc->outer_cone_rad &&
            desc->outer_cone_rad <= 0.5f * PPMI_PI + 1e-5f;
@@ -156,7 +160,7 @@ ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm
     ppmi_vec3 right, up, back;
     if (!light_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "light '%s': intensity, cone or transform out of range", name);
+                         "light '%s': intensity, angles or transform out of range", name);
     }
     ppmi_punctual *punctuals =
         ppmi_scene_grow(scene->context, scene->punctuals, scene->punctual_count, sizeof *punctuals);
@@ -164,6 +168,8 @@ ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm
     scene->punctuals = punctuals;
     char *name_copy = ppmi_string_copy(scene->context, name);
     if (!name_copy) return fail_memory(scene);
+    const bool has_disk =
+        desc->kind == PPM_LIGHT_DIRECTIONAL && desc->angular_radius_rad >= least_angular_radius;
     punctuals[scene->punctual_count] = (ppmi_punctual){
         .name = name_copy,
         .kind = desc->kind,
@@ -172,6 +178,7 @@ ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm
         .intensity = vec3_load(desc->intensity),
         .cos_inner = cosf(desc->inner_cone_rad),
         .cos_outer = cosf(desc->outer_cone_rad),
+        .angular_radius_rad = has_disk ? desc->angular_radius_rad : 0.0f,
     };
     *out_id = ++scene->punctual_count;
     return PPM_STATUS_OK;

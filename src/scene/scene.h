@@ -85,6 +85,7 @@ typedef struct ppmi_punctual {
     ppmi_vec3 position, direction; /* direction: where it shines, unit */
     ppmi_vec3 intensity;
     float cos_inner, cos_outer; /* spot */
+    float angular_radius_rad;   /* directional; 0: parallel light */
 } ppmi_punctual;
 
 typedef struct ppmi_environment {

@@ -16,6 +16,8 @@
 #include "cli/program.h"
 #include "cli/tiny_scene.h"
 #include "imageio/imageio.h"
+#include "math/vec.h"
+#include "support/near.h"
 
 #define QUICK "-s 32x16 -n 3 -p 4096 "
 
@@ -251,6 +253,70 @@ static void an_environment_adds_to_the_lights_of_the_file(void **state)
     assert_true(with == without + 1.0);
 }
 
+/* ---- surroundings ---------------------------------------------------------------------------- */
+
+/* Radiance where the first camera, which looks north, sees nothing of the scene. */
+static ppmi_vec3 sky_seen(const char *options)
+{
+    char arguments[256];
+    snprintf(arguments, sizeof arguments, "-s 32x16 -n 1 -p 64 -o sky-seen.exr %s tiny.gltf",
+             options);
+    assert_done(arguments);
+    ppmi_pixels pixels = read_picture("sky-seen.exr");
+    const ppmi_vec3 color = vec3_load(pixels.f32 + (size_t)16 * pixels.channels); /* top middle */
+    ppmi_imageio_pixels_free(NULL, &pixels);
+    return color;
+}
+
+/* By direction: 1 north, 4 east, 3 south, 2 west. */
+static void write_compass(void)
+{
+    static const float columns[8] = {3, 2, 2, 1, 1, 4, 4, 3};
+    float pixels[2 * 8 * 3];
+    for (int i = 0; i < 2 * 8 * 3; i++)
+        pixels[i] = columns[i / 3 % 8];
+    const ppmi_image_file file = {
+        .width = 8, .height = 2, .channels = 3, .pixels = pixels, .store = PPMI_STORE_FLOAT};
+    assert_int_equal(ppmi_imageio_write_file(NULL, "compass.exr", &file), PPM_STATUS_OK);
+}
+
+static void an_environment_turns_counter_clockwise_and_scales(void **state)
+{
+    (void)state;
+    write_compass();
+    assert_near(sky_seen("--env compass.exr").y, 1.0, 1e-5);
+    assert_near(sky_seen("--env compass.exr --env-rotation 90").y, 4.0, 1e-4);
+    assert_near(sky_seen("--env compass.exr --env-rotation=-90").y, 2.0, 1e-4);
+    assert_near(sky_seen("--env compass.exr --env-rotation 180").y, 3.0, 1e-4);
+    assert_near(sky_seen("--env compass.exr --env-intensity 2.5").y, 2.5, 1e-4);
+}
+
+static void a_background_hides_the_environment_from_the_camera_only(void **state)
+{
+    (void)state;
+    write_compass();
+    assert_near(sky_seen("--env compass.exr --background black").y, 0.0, 0.0);
+    assert_near(sky_seen("--env compass.exr --background 0.5").y, 0.5, 1e-6);
+    assert_near(sky_seen("--env compass.exr --background 0.1,0.2,0.3").z, 0.3, 1e-6);
+    assert_near(sky_seen("--env compass.exr --background env").y, 1.0, 1e-5);
+    assert_near(sky_seen("--background 0.5").y, 0.5, 1e-6);
+    assert_true(lights_with(QUICK "--background 1 --stats lights.json tiny.gltf") ==
+                lights_with(QUICK "--stats lights.json tiny.gltf"));
+}
+
+static void a_sun_brings_its_sky_unless_there_is_an_environment(void **state)
+{
+    (void)state;
+    write_compass();
+    const ppmi_vec3 sky = sky_seen("--sun 60,180");
+    assert_true(sky.y > 1e3f && sky.y < 1e5f); /* nit */
+    assert_near(sky_seen("--sun 60,180 --env-intensity 0.5").y / sky.y, 0.5, 1e-4);
+    assert_near(sky_seen("--sun 60,180 --background black").y, 0.0, 0.0);
+    assert_near(sky_seen("--sun 60,180 --env compass.exr").y, 1.0, 1e-5);
+    const double without = lights_with(QUICK "--stats lights.json tiny.gltf");
+    assert_true(lights_with(QUICK "--sun 60,180 --stats lights.json tiny.gltf") == without + 2.0);
+}
+
 static void a_time_of_nothing_still_gives_one_pass(void **state)
 {
     (void)state;
@@ -326,6 +392,9 @@ int main(void)
         cmocka_unit_test(statistics_say_what_was_done),
         cmocka_unit_test(statistics_are_written_into_a_pipe_not_over_it),
         cmocka_unit_test(an_environment_adds_to_the_lights_of_the_file),
+        cmocka_unit_test(an_environment_turns_counter_clockwise_and_scales),
+        cmocka_unit_test(a_background_hides_the_environment_from_the_camera_only),
+        cmocka_unit_test(a_sun_brings_its_sky_unless_there_is_an_environment),
         cmocka_unit_test(a_time_of_nothing_still_gives_one_pass),
         cmocka_unit_test(quiet_says_nothing),
         cmocka_unit_test(progress_is_plain_lines_where_there_is_no_terminal),

@@ -65,11 +65,35 @@ static void bad_values_name_option_and_value(void **state)
         {"--threads 2.5 tiny.gltf", "--threads: '2.5'"},
         {"--exposure inf tiny.gltf", "--exposure: 'inf'"},
         {"-i spm tiny.gltf", "'spm' is not one of sppm, ppm, path; did you mean 'sppm'?"},
+        {"--env-rotation 361 --env a.hdr tiny.gltf", "--env-rotation: '361'"},
+        {"--env-intensity 0 --env a.hdr tiny.gltf", "--env-intensity: '0'"},
+        {"--sun 30 tiny.gltf", "--sun: '30' is not ELEVATION,AZIMUTH"},
+        {"--sun 30,1,3,4 tiny.gltf", "--sun: '30,1,3,4' is not ELEVATION,AZIMUTH"},
+        {"--sun -1,0 tiny.gltf", "an elevation from 0 to 90 degrees"},
+        {"--sun 91,0 tiny.gltf", "an elevation from 0 to 90 degrees"},
+        {"--sun 30,400 tiny.gltf", "an azimuth from -360 to 360 degrees"},
+        {"--sun 30,1,1.5 tiny.gltf", "a turbidity from 2 to 10"},
+        {"--sun 30,1,0 tiny.gltf", "a turbidity from 2 to 10"},
+        {"--background white tiny.gltf", "--background: 'white' is not env, black, or a radiance"},
+        {"--background 1,2 tiny.gltf", "--background: '1,2' is not env"},
+        {"--background -1 tiny.gltf", "--background: '-1' is not env"},
+        {"--background 1,2,1e10 tiny.gltf", "a radiance from 0 to 1e+09"},
         {"--light-units blendr tiny.gltf", "did you mean 'blender'?"},
         {"--transmission sold tiny.gltf", "did you mean 'solid'?"},
         {"--output '' tiny.gltf", "--output: ''"},
         {"tiny.gltf -o", "--output needs a value"},
         {"--quiet=yes tiny.gltf", "--quiet takes no value"},
+    };
+    ASSERT_ALL_REFUSED(cases, 1);
+}
+
+static void options_that_would_do_nothing_are_refused(void **state)
+{
+    (void)state;
+    static const refusal cases[] = {
+        {"--env-rotation 90 tiny.gltf", "--env-rotation turns the picture of --env"},
+        {"--env-rotation 90 --sun 30,0 tiny.gltf", "--env-rotation turns the picture of --env"},
+        {"--env-intensity 2 tiny.gltf", "--env-intensity is about --env and --sun"},
     };
     ASSERT_ALL_REFUSED(cases, 1);
 }
@@ -144,6 +168,10 @@ static void help_shows_every_option_and_an_example(void **state)
                                           "--max-depth N",
                                           "--camera NAME|N",
                                           "--env FILE",
+                                          "--env-rotation DEGREES",
+                                          "--env-intensity FACTOR",
+                                          "--sun ELEVATION,AZIMUTH[,TURBIDITY]",
+                                          "--background WHAT",
                                           "--seed N",
                                           "--threads N",
                                           "--exposure EV",
@@ -202,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(bad_values_name_option_and_value),
+        cmocka_unit_test(options_that_would_do_nothing_are_refused),
         cmocka_unit_test(there_is_exactly_one_input),
         cmocka_unit_test(names_that_only_the_files_know_are_checked),
         cmocka_unit_test(unusable_inputs_end_with_two),

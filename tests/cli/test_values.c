@@ -92,6 +92,22 @@ static void sizes_are_two_integers(void **state)
     assert_int_equal(width, 640);
 }
 
+static void lists_are_numbers_between_commas(void **state)
+{
+    (void)state;
+    double values[3] = {7.0, 7.0, 7.0};
+    size_t count = 9;
+    static const char *const words[] = {"", ",", "1,", ",1", "1,,2", "1, 2", "1,2,3,4", "1;2", "a"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (value_parse_reals(words[i], 3, values, &count)) fail_msg("'%s' was taken", words[i]);
+    }
+    assert_true(values[0] == 7.0 && count == 9);
+    assert_true(value_parse_reals("-1.5", 3, values, &count));
+    assert_true(values[0] == -1.5 && count == 1);
+    assert_true(value_parse_reals("1,2e1,.5", 3, values, &count));
+    assert_true(values[0] == 1.0 && values[1] == 20.0 && values[2] == 0.5 && count == 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -102,6 +118,7 @@ int main(void)
         cmocka_unit_test(words_that_are_no_numbers_are_refused),
         cmocka_unit_test(numbers_may_have_sign_point_and_exponent),
         cmocka_unit_test(sizes_are_two_integers),
+        cmocka_unit_test(lists_are_numbers_between_commas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

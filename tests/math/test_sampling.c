@@ -52,6 +52,16 @@ static square cone(float u, float v)
     return (square){turn(d), ((double)d.z - 0.7) / 0.3};
 }
 
+static square cap(float u, float v)
+{
+    const float height = 1e-5f;
+    const ppmi_vec3 d = ppmi_sample_cap(height, u, v);
+    assert_near(vec3_length(d), 1.0f, 1e-6f);
+    /* z is too coarse; sin^2 = depth (2 - depth) */
+    const double sin2 = (double)(d.x * d.x) + (double)(d.y * d.y);
+    return (square){turn(d), (1.0 - sqrt(1.0 - sin2)) / (double)height};
+}
+
 /* Conditional on x + y, x is uniform; and (x + y)^2 is uniform. */
 static square triangle(float u, float v)
 {
@@ -82,11 +92,9 @@ static void maps_have_their_densities(void **state)
     const struct {
         const char *name;
         square (*map)(float, float);
-    } maps[] = {{"disk", disk},
-                {"cosine hemisphere", cosine_hemisphere},
-                {"sphere", sphere},
-                {"cone", cone},
-                {"triangle", triangle}};
+    } maps[] = {{"disk", disk},     {"cosine hemisphere", cosine_hemisphere},
+                {"sphere", sphere}, {"cone", cone},
+                {"cap", cap},       {"triangle", triangle}};
     test_family family = {0};
     for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++)
         family_add(&family, even_p(maps[i].map, i), "%s", maps[i].name);

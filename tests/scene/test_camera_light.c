@@ -107,6 +107,33 @@ static void lights_out_of_range_are_refused(void **state)
     assert_near(test.scene->punctuals[0].direction.z, -1.0, 0.0);
 }
 
+static void the_size_of_a_directional_light_is_checked(void **state)
+{
+    (void)state;
+    const ppm_light_desc good = {.size = sizeof good,
+                                 .kind = PPM_LIGHT_DIRECTIONAL,
+                                 .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                 .intensity = {1, 1, 1},
+                                 .angular_radius_rad = 0.1f};
+    const float bad[] = {-0.1f, NAN, INFINITY, 1.5708f};
+    ppm_light_desc desc = good;
+    ppm_light_id id = 77;
+    for (int i = 0; i < 4; i++) {
+        desc.angular_radius_rad = bad[i];
+        assert_int_equal(ppm_scene_add_light(test.scene, &desc, &id), PPM_STATUS_INVALID_ARGUMENT);
+    }
+    assert_int_equal(id, 77);
+    assert_int_equal(ppm_scene_add_light(test.scene, &good, &id), PPM_STATUS_OK);
+    assert_near(test.scene->punctuals[id - 1].angular_radius_rad, 0.1, 1e-7);
+    desc.angular_radius_rad = 5e-5f; /* parallel light */
+    assert_int_equal(ppm_scene_add_light(test.scene, &desc, &id), PPM_STATUS_OK);
+    assert_near(test.scene->punctuals[id - 1].angular_radius_rad, 0.0, 0.0);
+    desc.kind = PPM_LIGHT_POINT; /* has none */
+    desc.angular_radius_rad = 0.1f;
+    assert_int_equal(ppm_scene_add_light(test.scene, &desc, &id), PPM_STATUS_OK);
+    assert_near(test.scene->punctuals[id - 1].angular_radius_rad, 0.0, 0.0);
+}
+
 static void framing_needs_something_to_frame(void **state)
 {
     (void)state;
@@ -184,6 +211,7 @@ int main(void)
         WITH_SCENE(cameras_out_of_range_are_refused),
         WITH_SCENE(scale_in_a_camera_transform_is_ignored),
         WITH_SCENE(lights_out_of_range_are_refused),
+        WITH_SCENE(the_size_of_a_directional_light_is_checked),
         WITH_SCENE(framing_needs_something_to_frame),
         cmocka_unit_test(the_framing_camera_sees_all_corners),
         WITH_SCENE(the_framing_camera_looks_from_right_front_and_above),

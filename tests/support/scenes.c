@@ -147,7 +147,13 @@ ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target, 
 
 ppm_light_id light_directional(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illuminance)
 {
-    ppm_light_desc desc = {.kind = PPM_LIGHT_DIRECTIONAL};
+    return light_sun(scene, direction, illuminance, 0.0f);
+}
+
+ppm_light_id light_sun(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illuminance,
+                       float angular_radius_rad)
+{
+    ppm_light_desc desc = {.kind = PPM_LIGHT_DIRECTIONAL, .angular_radius_rad = angular_radius_rad};
     vec3_store(desc.intensity, illuminance);
     return add_light(scene, desc, vec3(0.0f, 0.0f, 0.0f), direction);
 }

@@ -36,6 +36,9 @@ ppm_light_id light_point(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 intensi
 ppm_light_id light_spot(ppm_scene *scene, ppmi_vec3 position, ppmi_vec3 target, ppmi_vec3 intensity,
                         float inner_rad, float outer_rad);
 ppm_light_id light_directional(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illuminance);
+/* A disk in the sky, from which light comes along direction. */
+ppm_light_id light_sun(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illuminance,
+                       float angular_radius_rad);
 void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image,
                        float rotation_rad);
 /* A linear RGB image of floats. */

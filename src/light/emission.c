@@ -1,0 +1,125 @@
+/* Photon emission: every light sends photons in proportion to its power, far ones towards the scene
+ * only. */
+#include "light/tables.h"
+#include "math/sampling.h"
+
+static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, const float u[4],
+                          ppmi_emission *emission)
+{
+    const ppmi_vec2 at = ppmi_sample_triangle(u[0], u[1]);
+    ppmi_surface surface;
+    ppmi_emitter_surface(lights, e, at.x, at.y, &surface);
+    float side = 1.0f, u_direction = u[2];
+    if (e->sides == 2) {
+        side = u_direction < 0.5f ? 1.0f : -1.0f;
+        u_direction = u_direction < 0.5f ? 2.0f * u_direction : 2.0f * u_direction - 1.0f;
+    }
+    const ppmi_vec3 n = vec3_scale(surface.ng, side);
+    const ppmi_frame frame = ppmi_frame_from_normal(n);
+    const ppmi_vec3 direction = vec3_normalize(
+        ppmi_frame_to_world(&frame, ppmi_sample_cosine_hemisphere(u_direction, u[3])));
+    emission->ray = ppmi_surface_ray(&surface, direction);
+    const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, n);
+    emission->power = vec3_scale(radiance, PPMI_PI * e->area * (float)e->sides);
+    return true;
+}
+
+static bool emit_point(const ppmi_lights *lights, const ppmi_punctual *light, const float u[4],
+                       ppmi_emission *emission)
+{
+    const float cos_max = ppmi_light_extent_cone(&lights->extent, light->position);
+    const ppmi_vec3 local = ppmi_sample_cone(cos_max, u[2], u[3]);
+    const ppmi_vec3 axis = cos_max > -1.0f
+                               ? vec3_normalize(vec3_sub(lights->extent.center, light->position))
+                               : vec3(0.0f, 0.0f, 1.0f);
+    const ppmi_frame frame = ppmi_frame_from_normal(axis);
+    emission->ray = (ppmi_ray){.origin = light->position,
+                               .t_max = INFINITY,
+                               .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};
+    emission->power = vec3_scale(light->intensity, 2.0f * PPMI_PI * (1.0f - cos_max));
+    return true;
+}
+
+/* The falloff is sampled exactly: its integral between the cones grows as the cube of the ramp. */
+static bool emit_spot(const ppmi_punctual *light, const float u[4], ppmi_emission *emission)
+{
+    const float ramp = (light->cos_inner - light->cos_outer) / 3.0f;
+    const float flat = 1.0f - light->cos_inner;
+    const float x = u[2] * (ramp + flat);
+    float cosine;
+    if (x < ramp) {
+        cosine = light->cos_outer + (light->cos_inner - light->cos_outer) * cbrtf(x / ramp);
+    } else {
+        cosine = light->cos_inner + (x - ramp);
+    }
+    const ppmi_frame frame = ppmi_frame_from_normal(light->direction);
+    const ppmi_vec3 local = ppmi_direction_at(ppmi_min(cosine, 1.0f), u[3]);
+    emission->ray = (ppmi_ray){.origin = light->position,
+                               .t_max = INFINITY,
+                               .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};
+    emission->power = vec3_scale(light->intensity, ppmi_spot_solid_angle(light));
+    return true;
+}
+
+static bool emit_punctual(const ppmi_lights *lights, const ppmi_punctual *light, const float u[4],
+                          ppmi_emission *emission)
+{
+    if (light->kind == PPM_LIGHT_POINT) return emit_point(lights, light, u, emission);
+    if (light->kind == PPM_LIGHT_SPOT) return emit_spot(light, u, emission);
+    emission->ray = ppmi_light_extent_ray(&lights->extent, light->direction, u[0], u[1]);
+    emission->power =
+        vec3_scale(light->intensity, ppmi_light_extent_shadow(&lights->extent, light->direction));
+    return true;
+}
+
+/* Parallel light from one point of the sky, which was drawn with density pdf. */
+static void emit_far(const ppmi_lights *lights, ppmi_vec3 towards, ppmi_vec3 radiance, float pdf,
+                     const float u[4], ppmi_emission *emission)
+{
+    const ppmi_vec3 direction = vec3_neg(towards);
+    emission->ray = ppmi_light_extent_ray(&lights->extent, direction, u[0], u[1]);
+    emission->power =
+        vec3_scale(radiance, ppmi_light_extent_shadow(&lights->extent, direction) / pdf);
+}
+
+static void emit_sun(const ppmi_lights *lights, const ppmi_sun *sun, const float u[4],
+                     ppmi_emission *emission)
+{
+    const ppmi_vec3 towards = ppmi_sun_sample(sun, u[2], u[3]);
+    emit_far(lights, towards, sun->radiance, 1.0f / sun->solid_angle, u, emission);
+}
+
+static bool emit_environment(const ppmi_lights *lights, double u_cell, const float u[4],
+                             ppmi_emission *emission)
+{
+    ppmi_vec3 towards;
+    const float pdf =
+        ppmi_environment_map_sample(&lights->environment, u_cell, u[2], u[3], &towards);
+    if (!(pdf > 0.0f)) return false;
+    emit_far(lights, towards, ppmi_environment_map_radiance(&lights->environment, towards), pdf, u,
+             emission);
+    return true;
+}
+
+bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
+                      ppmi_emission *out_emission)
+{
+    if (lights->count == 0) return false;
+    double rest;
+    const uint32_t i = ppmi_alias_sample(&lights->by_power, u_pick, &rest);
+    const ppmi_emitter *e = &lights->emitters[i];
+    const float probability = ppmi_alias_probability(&lights->by_power, i);
+    bool emitted = true;
+    if (e->kind == PPMI_EMITTER_TRIANGLE) {
+        emitted = emit_triangle(lights, e, u, out_emission);
+    } else if (e->kind == PPMI_EMITTER_PUNCTUAL) {
+        emitted = emit_punctual(lights, &lights->scene->punctuals[e->triangle], u, out_emission);
+    } else if (e->kind == PPMI_EMITTER_SUN) {
+        emit_sun(lights, &lights->suns[e->primitive], u, out_emission);
+    } else {
+        emitted = emit_environment(lights, rest, u, out_emission);
+    }
+    if (!emitted || !(probability > 0.0f)) return false;
+    out_emission->power = vec3_scale(out_emission->power, 1.0f / probability);
+    return !vec3_is_black(out_emission->power);
+}

@@ -1,0 +1,205 @@
+/* Light sampling: what arrives at a point from one light that is drawn, and how likely it was to be
+ * drawn. */
+#include "light/tables.h"
+#include "math/sampling.h"
+
+/* A point in a medium has no normal: light counts from every side. */
+static bool is_surface(ppmi_vec3 n)
+{
+    return vec3_length2(n) > 0.0f;
+}
+
+/* ---- near lights ----------------------------------------------------------------------------- */
+
+static float spot_falloff(const ppmi_punctual *light, float cosine)
+{
+    const float range = ppmi_max(light->cos_inner - light->cos_outer, 1e-6f);
+    const float x = ppmi_clampf((cosine - light->cos_outer) / range, 0.0f, 1.0f);
+    return x * x;
+}
+
+static bool sample_punctual(const ppmi_punctual *light, ppmi_vec3 position,
+                            ppmi_light_sample *sample)
+{
+    sample->is_delta = true;
+    if (light->kind == PPM_LIGHT_DIRECTIONAL) {
+        sample->wi = vec3_neg(light->direction);
+        sample->is_far = true;
+        sample->radiance = light->intensity;
+        return true;
+    }
+    const ppmi_vec3 to_light = vec3_sub(light->position, position);
+    const float distance2 = vec3_length2(to_light);
+    if (!(distance2 > 0.0f)) return false;
+    sample->target = light->position;
+    sample->wi = vec3_normalize(to_light);
+    float scale = 1.0f / distance2;
+    if (light->kind == PPM_LIGHT_SPOT) {
+        scale *= spot_falloff(light, -vec3_dot(sample->wi, light->direction));
+    }
+    sample->radiance = vec3_scale(light->intensity, scale);
+    return scale > 0.0f;
+}
+
+static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, ppmi_vec3 position,
+                            float u, float v, ppmi_light_sample *sample)
+{
+    const ppmi_vec2 at = ppmi_sample_triangle(u, v);
+    ppmi_surface surface;
+    ppmi_emitter_surface(lights, e, at.x, at.y, &surface);
+    const ppmi_vec3 to_light = vec3_sub(surface.position, position);
+    const float distance2 = vec3_length2(to_light);
+    if (!(distance2 > 0.0f)) return false;
+    const float distance = sqrtf(distance2);
+    sample->wi = vec3_scale(to_light, 1.0f / distance);
+    const float cosine = fabsf(vec3_dot(sample->wi, surface.ng));
+    if (!(cosine > 1e-6f)) return false;
+    sample->radiance = ppmi_emitter_radiance(lights, &surface, vec3_neg(sample->wi));
+    const float side = vec3_dot(sample->wi, surface.ng) < 0.0f ? 1.0f : -1.0f;
+    sample->target = vec3_mad(surface.position, surface.ng, side * surface.error);
+    sample->pdf *= distance2 / (cosine * e->area);
+    return !vec3_is_black(sample->radiance);
+}
+
+/* ---- far light: the environment and the suns before it --------------------------------------- */
+
+static float suns_pdf(const ppmi_lights *lights, ppmi_vec3 wi)
+{
+    float pdf = 0.0f;
+    for (uint32_t i = 0; i < lights->sun_count; i++) {
+        const ppmi_sun *sun = &lights->suns[i];
+        if (ppmi_sun_holds(sun, wi)) pdf += sun->choice / sun->solid_angle;
+    }
+    return pdf;
+}
+
+/* A constant environment is sampled by the cosine, in a medium evenly; an image by its power. */
+static float environment_pdf(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)
+{
+    if (!lights->has_environment) return 0.0f;
+    const ppmi_environment_map *map = &lights->environment;
+    if (!ppmi_environment_map_is_constant(map) || !is_surface(n)) {
+        return ppmi_environment_map_pdf(map, wi);
+    }
+    return ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI;
+}
+
+/* Far light has one radiance and one density a direction, whichever of it a sample was drawn for:
+ * where disks and a bright sky overlap, each stands in for the others. pdf: of wi, class share not
+ * included. */
+static bool finish_far(const ppmi_lights *lights, ppmi_vec3 wi, float pdf,
+                       ppmi_light_sample *sample)
+{
+    sample->wi = wi;
+    sample->is_far = true;
+    sample->pdf = lights->class_share * pdf;
+    sample->radiance = ppmi_lights_environment(lights, wi);
+    return sample->pdf > 0.0f && !vec3_is_black(sample->radiance);
+}
+
+static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_cell, float u,
+                               float v, ppmi_light_sample *sample)
+{
+    const ppmi_environment_map *map = &lights->environment;
+    ppmi_vec3 wi;
+    float pdf;
+    if (ppmi_environment_map_is_constant(map) && is_surface(n)) {
+        const ppmi_frame frame = ppmi_frame_from_normal(n);
+        const ppmi_vec3 local = ppmi_sample_cosine_hemisphere(u, v);
+        wi = ppmi_frame_to_world(&frame, local);
+        pdf = local.z * PPMI_INV_PI;
+    } else {
+        pdf = ppmi_environment_map_sample(map, u_cell, u, v, &wi);
+    }
+    return finish_far(lights, wi, pdf + suns_pdf(lights, wi), sample);
+}
+
+static bool sample_sun(const ppmi_lights *lights, const ppmi_sun *sun, ppmi_vec3 n, float u,
+                       float v, ppmi_light_sample *sample)
+{
+    const ppmi_vec3 wi = ppmi_sun_sample(sun, u, v);
+    return finish_far(lights, wi, environment_pdf(lights, n, wi) + suns_pdf(lights, wi), sample);
+}
+
+/* ---- all classes ----------------------------------------------------------------------------- */
+
+/* Draws from a class of finite choices; first is the class's first emitter. */
+static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table, uint32_t first,
+                             ppmi_vec3 position, ppmi_vec3 n, double u_pick, float u, float v,
+                             ppmi_light_sample *sample)
+{
+    const uint32_t i = ppmi_alias_sample(table, u_pick, NULL);
+    const ppmi_emitter *e = &lights->emitters[first + i];
+    sample->pdf *= ppmi_alias_probability(table, i);
+    if (!(sample->pdf > 0.0f)) return false;
+    if (e->kind == PPMI_EMITTER_PUNCTUAL) {
+        return sample_punctual(&lights->scene->punctuals[e->triangle], position, sample);
+    }
+    if (e->kind == PPMI_EMITTER_SUN) {
+        return sample_sun(lights, &lights->suns[e->primitive], n, u, v, sample);
+    }
+    return sample_triangle(lights, e, position, u, v, sample);
+}
+
+bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
+                        float u, float v, ppmi_light_sample *out_sample)
+{
+    if (lights->count == 0) return false;
+    const double share = (double)lights->class_share;
+    *out_sample = (ppmi_light_sample){.pdf = lights->class_share};
+    if (lights->has_environment) {
+        if (u_pick < share) {
+            return sample_environment(lights, n, u_pick / share, u, v, out_sample);
+        }
+        u_pick -= share;
+    }
+    if (lights->directional_count > 0) {
+        if (u_pick < share || lights->near_count == 0) {
+            return sample_by_weight(lights, &lights->directionals, lights->near_count, position, n,
+                                    u_pick / share, u, v, out_sample);
+        }
+        u_pick -= share;
+    }
+    if (lights->near_count == 0) return false;
+    return sample_by_weight(lights, &lights->near_lights, 0, position, n, u_pick / share, u, v,
+                            out_sample);
+}
+
+float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
+                              const ppmi_surface *surface, ppmi_vec3 wi, float distance)
+{
+    const uint32_t slot = lights->first_slot[hit->instance] + hit->primitive;
+    const uint32_t first = lights->first_emitter[slot];
+    if (first == PPMI_NO_EMITTER) return 0.0f;
+    const uint32_t i = first + hit->triangle;
+    const float cosine = fabsf(vec3_dot(wi, surface->ng));
+    const float area = lights->emitters[i].area;
+    if (!(cosine > 1e-6f) || !(area > 0.0f)) return 0.0f;
+    return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * distance *
+           distance / (cosine * area);
+}
+
+float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)
+{
+    return lights->class_share * (environment_pdf(lights, n, wi) + suns_pdf(lights, wi));
+}
+
+ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi)
+{
+    ppmi_vec3 radiance = vec3_splat(0.0f);
+    if (lights->has_environment) {
+        radiance = ppmi_environment_map_radiance(&lights->environment, wi);
+    }
+    for (uint32_t i = 0; i < lights->sun_count; i++) {
+        const ppmi_sun *sun = &lights->suns[i];
+        if (ppmi_sun_holds(sun, wi)) radiance = vec3_add(radiance, sun->radiance);
+    }
+    return radiance;
+}
+
+ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction)
+{
+    const ppmi_environment *environment = &lights->scene->environment;
+    return environment->has_backdrop ? environment->backdrop
+                                     : ppmi_lights_environment(lights, direction);
+}
