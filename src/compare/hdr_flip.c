@@ -6,6 +6,7 @@
  * white to one where its median is. A pixel's error is the largest of all. */
 #include "compare/flip.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -55,7 +56,8 @@ ppmi_compare_exposures ppmi_compare_find_exposures(const float *reference, size_
 {
     for (size_t i = 0; i < pixel_count; i++) {
         const float *const rgb = reference + 3 * i;
-        sorted[i] = fmaxf(0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2], 0);
+        const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        sorted[i] = fminf(fmaxf(luminance, 0), FLT_MAX);
     }
     qsort(sorted, pixel_count, sizeof *sorted, by_value);
     const double brightest = (double)sorted[pixel_count - 1];

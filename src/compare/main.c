@@ -1,6 +1,7 @@
 /* ppm-compare: two pictures in, numbers out, and a heat map if wanted.
  *
  * The command line and the heat map's path are checked before anything is read. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -112,10 +113,10 @@ static void find_heat(const compare_program *program, float *values)
     for (size_t i = 0; i < pixel_count(program); i++) {
         switch (program->options.heat_of) {
         case HEAT_RELATIVE:
-            values[i] = (float)ppmi_compare_relative_error(pair, i);
+            values[i] = (float)fmin(ppmi_compare_relative_error(pair, i), (double)FLT_MAX);
             break;
         case HEAT_SQUARED:
-            values[i] = (float)ppmi_compare_squared_error(pair, i);
+            values[i] = (float)fmin(ppmi_compare_squared_error(pair, i), (double)FLT_MAX);
             break;
         default:
             values[i] = program->flip_errors[i];

@@ -1,4 +1,5 @@
 /* FLIP of pictures whose error is known. */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -237,6 +238,16 @@ static void a_median_of_black_is_that_of_the_rest(void **state)
     assert_int_equal(exposures_of_reference().count, 1);
 }
 
+static void the_largest_float_is_a_light_too(void **state)
+{
+    (void)state;
+    fill(reference, 0.5f, 0.5f, 0.5f);
+    reference[0] = reference[1] = reference[2] = FLT_MAX;
+    const ppmi_compare_exposures range = exposures_of_reference();
+    assert_near(range.start_ev + 127, 0, 2);
+    assert_true(range.count > 100 && range.count < 140);
+}
+
 static void tone_curve_rises_from_black_to_white(void **state)
 {
     (void)state;
@@ -297,6 +308,7 @@ int main(void)
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(exposures_show_the_brightest_and_the_median_at_0_85),
         cmocka_unit_test(a_median_of_black_is_that_of_the_rest),
+        cmocka_unit_test(the_largest_float_is_a_light_too),
         cmocka_unit_test(tone_curve_rises_from_black_to_white),
         cmocka_unit_test(equal_light_has_no_error),
         cmocka_unit_test(differences_in_highlights_are_seen),
