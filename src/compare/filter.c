@@ -110,7 +110,7 @@ static void add_shifted(float *restrict out, const float *restrict in, int64_t c
 void ppmi_compare_filter_rows(const float *in, float *out, uint32_t width, uint32_t height,
                               const ppmi_compare_kernel *kernel)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if ((size_t)width * height >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t y = 0; y < height; y++) {
         float *const row = out + y * width;
         memset(row, 0, width * sizeof *row);
@@ -122,7 +122,7 @@ void ppmi_compare_filter_rows(const float *in, float *out, uint32_t width, uint3
 void ppmi_compare_filter_columns(const float *in, float *out, uint32_t width, uint32_t height,
                                  const ppmi_compare_kernel *kernel)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if ((size_t)width * height >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t y = 0; y < height; y++) {
         float *const row = out + y * width;
         memset(row, 0, width * sizeof *row);

@@ -6,6 +6,9 @@
 
 enum { PPMI_COMPARE_RADIUS_MAX = 160, PPMI_COMPARE_TERMS_MAX = 2 };
 
+/* Pictures of fewer pixels are done before other threads have woken up. */
+enum { PPMI_COMPARE_PARALLEL_MIN = 4096 };
+
 /* tap[k] weighs the pixel k - radius to the right (or below). */
 typedef struct ppmi_compare_kernel {
     int32_t radius; /* at most RADIUS_MAX */

@@ -52,7 +52,7 @@ void ppmi_compare_flip_destroy(ppmi_compare_flip *flip)
 /* The picture as three planes of YCxCz. */
 static void split(const ppmi_compare_flip *flip, const float *rgb, float *const ycxcz[3])
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++) {
         float shown[3], xyz[3], opponent[3];
         for (int c = 0; c < 3; c++)
@@ -67,7 +67,7 @@ static void split(const ppmi_compare_flip *flip, const float *rgb, float *const 
 static void add_scaled(const ppmi_compare_flip *flip, float *sum, const float *plane, float weight,
                        bool is_first)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++)
         sum[i] = weight * plane[i] + (is_first ? 0 : sum[i]);
 }
@@ -88,7 +88,7 @@ static void apply_csf(const ppmi_compare_flip *flip, const ppmi_compare_csf *csf
  * colours is clamped. */
 static void to_hunt_lab(const ppmi_compare_flip *flip, float *const planes[3])
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++) {
         const float ycxcz[3] = {planes[0][i], planes[1][i], planes[2][i]};
         float xyz[3], rgb[3], lab[3], adjusted[3];
@@ -119,7 +119,7 @@ static void detect(const ppmi_compare_flip *flip, const float *luminance,
     ppmi_compare_filter_columns(half, vertical, width, height, kernel);
     ppmi_compare_filter_rows(luminance, half, width, height, kernel);
     ppmi_compare_filter_columns(half, strength, width, height, gaussian);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++)
         strength[i] = sqrtf(strength[i] * strength[i] + vertical[i] * vertical[i]);
 }
@@ -138,7 +138,7 @@ static void look_at(const ppmi_compare_flip *flip, const float *rgb, float *cons
 
     /* features are looked for in luminance 0..1, (Y + 16) / 116, before the contrast filters */
     float *const luminance = ycxcz[0];
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++)
         luminance[i] = (luminance[i] + 16) / 116;
     detect(flip, luminance, &flip->detector.edge, planes[3]);
@@ -190,7 +190,7 @@ void ppmi_compare_flip_ldr(ppmi_compare_flip *flip, const float *test, const flo
     look_at(flip, test, seen_test);
     look_at(flip, reference, seen_reference);
     const float largest = largest_colour_error();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (flip->pixel_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)flip->pixel_count; i++)
         errors[i] = pixel_error(seen_test, seen_reference, i, largest);
 }

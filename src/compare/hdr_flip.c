@@ -75,7 +75,7 @@ ppmi_compare_exposures ppmi_compare_find_exposures(const float *reference, size_
 static void expose(const float *light, size_t value_count, double exposure_ev, float *shown)
 {
     const double factor = exp2(exposure_ev);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (value_count >= PPMI_COMPARE_PARALLEL_MIN)
     for (int64_t i = 0; i < (int64_t)value_count; i++)
         shown[i] = ppmi_compare_tone_map((float)((double)light[i] * factor));
 }

@@ -44,7 +44,7 @@ static const option_row rows[] = {
              "hold light, 1 if they are for a display)"},
     {"ppd", 0, VALUE_REAL, FIELD(pixels_per_degree), .low = 1, .high = 1000, .argument = "N",
      .help = "pixels per degree that FLIP's observer sees (default: 67, a 4K\n"
-             "display 0.7 m wide from 0.7 m; 30: a laptop)"},
+             "display 0.7 m wide from 0.7 m)"},
     {"exposure", 0, VALUE_REAL, FIELD(exposure_ev), .low = -64, .high = 64, .argument = "EV",
      .help = "FLIP at this exposure only, clamped to the display's range\n"
              "(default: HDR-FLIP, all exposures that show something of REFERENCE;\n"
@@ -74,7 +74,7 @@ enum { ROW_COUNT = sizeof rows / sizeof rows[0], FIRST_LONG = 256 };
 
 static void print_row(FILE *stream, const option_row *row)
 {
-    enum { HELP_COLUMN = 27 };
+    enum { HELP_COLUMN = 28 };
     char letter[5] = "    ";
     if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
     int column = fprintf(stream, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "",
