@@ -1,5 +1,6 @@
 /* Library status to exit status. */
-#include "options.h"
+#include "exit_status.h"
+
 #include "ppm/status.h"
 
 int exit_status_of(int32_t status, int by_step)

@@ -6,20 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Exit statuses; they are part of the program's contract (docs/command-line.md). */
-enum {
-    EXIT_DONE = 0,
-    EXIT_USAGE = 1,
-    EXIT_INPUT = 2,
-    EXIT_OUTPUT = 3,
-    EXIT_RESOURCES = 4,
-    EXIT_SIGNAL = 130
-};
-
-/* The exit status for what a library call returned. by_step is for the codes whose meaning depends
- * on what was being done: a wrong argument is wrong usage while options are checked, but not while
- * a file is read. */
-int exit_status_of(int32_t status, int by_step);
+#include "exit_status.h"
 
 enum { ACTION_RENDER = 0, ACTION_HELP, ACTION_VERSION, ACTION_LIST_VIEWS };
 enum { VERBOSITY_QUIET = -1, VERBOSITY_NORMAL = 0, VERBOSITY_VERBOSE = 1 };

@@ -12,13 +12,69 @@
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* The number of channels to keep: the first four, and a fourth or second one only if it is alpha
- * (an OpenEXR file may hold RGB and depth). */
-static int32_t channels_to_keep(const ppmi_oiio_info *info)
+/* The channels that are read: count of them from first on. */
+typedef struct kept_channels {
+    int32_t first, count;
+} kept_channels;
+
+/* Without layers: the first four, and a fourth or second one only if it is alpha (an OpenEXR file
+ * may hold RGB and depth). */
+static int32_t count_without_layers(const ppmi_oiio_info *info)
 {
     if (info->channels >= 4) return info->alpha_channel == 3 ? 4 : 3;
     if (info->channels == 3) return info->alpha_channel == 1 ? 2 : 3;
     return info->channels == 2 && info->alpha_channel == 1 ? 2 : 1;
+}
+
+/* The length of the layer's name in "layer.R", with its dot; 0 where there is none. */
+static size_t layer_length(const char *name)
+{
+    const char *const dot = strrchr(name, '.');
+    return dot ? (size_t)(dot + 1 - name) : 0;
+}
+
+/* Whether the channel at index is called like letter in the layer that layer begins with. */
+static bool is_channel(const ppmi_oiio_reader *reader, const ppmi_oiio_info *info, int32_t index,
+                       const char *layer, const char *letter)
+{
+    if (index >= info->channels) return false;
+    const char *const name = ppmi_oiio_channel_name(reader, index);
+    const size_t length = layer_length(layer);
+    return layer_length(name) == length && strncmp(name, layer, length) == 0 &&
+           strcmp(name + length, letter) == 0;
+}
+
+static bool begins_rgb(const ppmi_oiio_reader *reader, const ppmi_oiio_info *info, int32_t index)
+{
+    const char *const name = ppmi_oiio_channel_name(reader, index);
+    return is_channel(reader, info, index, name, "R") &&
+           is_channel(reader, info, index + 1, name, "G") &&
+           is_channel(reader, info, index + 2, name, "B");
+}
+
+/* "Combined.R", "ViewLayer.Combined.R": what Blender calls the picture itself. */
+static bool is_combined(const char *name)
+{
+    const char ending[] = "Combined.R";
+    const size_t length = strlen(name), ending_length = sizeof ending - 1;
+    return length >= ending_length && strcmp(name + length - ending_length, ending) == 0;
+}
+
+/* OpenImageIO puts the layer without a name first, and R, G, B, A of a layer side by side. */
+static kept_channels channels_to_keep(const ppmi_oiio_reader *reader, const ppmi_oiio_info *info)
+{
+    int32_t first = -1;
+    for (int32_t i = 0; i + 2 < info->channels; i++) {
+        if (!begins_rgb(reader, info, i)) continue;
+        const char *const name = ppmi_oiio_channel_name(reader, i);
+        if (first < 0 || is_combined(name)) first = i;
+        if (layer_length(name) == 0 || is_combined(name)) break;
+    }
+    if (first < 0 || layer_length(ppmi_oiio_channel_name(reader, first)) == 0) {
+        return (kept_channels){0, count_without_layers(info)};
+    }
+    const char *const layer = ppmi_oiio_channel_name(reader, first);
+    return (kept_channels){first, is_channel(reader, info, first + 3, layer, "A") ? 4 : 3};
 }
 
 /* Whether only a part of the picture is stored (OpenEXR's data window). Elsewhere offsets are
@@ -50,7 +106,7 @@ static ppm_status check_area(ppm_context *context, const char *name, int32_t wid
  * and that the renderer is ready to keep. */
 static ppm_status check_header(ppm_context *context, const char *name,
                                const ppmi_image_format *format, size_t byte_count,
-                               const ppmi_oiio_info *info)
+                               const ppmi_oiio_info *info, int32_t channels)
 {
     if (info->is_deep) {
         return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED, "%s: deep images are not supported",
@@ -66,7 +122,6 @@ static ppm_status check_header(ppm_context *context, const char *name,
                          "%s: claims %d x %d pixels, more than its %zu bytes can hold", name,
                          info->width, info->height, byte_count);
     }
-    const int32_t channels = channels_to_keep(info);
     const ppm_status status = check_area(context, name, info->width, info->height, channels);
     if (status != PPM_STATUS_OK || !is_part(format, info)) return status;
     return check_area(context, name, info->full_width, info->full_height, channels);
@@ -136,16 +191,15 @@ static void unassociate(ppmi_pixels *pixels)
 /* Decodes to a packed buffer of the full picture. */
 static ppm_status decode_samples(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
                                  const ppmi_image_format *format, const ppmi_oiio_info *info,
-                                 void **out_samples)
+                                 kept_channels kept, void **out_samples)
 {
-    const int32_t channels = channels_to_keep(info);
-    const size_t pixel_bytes = (size_t)channels * (info->is_u8 ? 1 : sizeof(float));
+    const size_t pixel_bytes = (size_t)kept.count * (info->is_u8 ? 1 : sizeof(float));
     void *stored = NULL, *full = NULL;
     ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
     /* zeroed: what a decoder leaves out of a damaged file must not be old memory */
     stored = ppmi_alloc_zeroed(context, (size_t)info->width * (size_t)info->height, pixel_bytes);
     if (!stored) goto fail_memory;
-    status = ppmi_oiio_read(context, reader, name, channels, info->is_u8, stored);
+    status = ppmi_oiio_read(context, reader, name, kept.first, kept.count, info->is_u8, stored);
     if (status != PPM_STATUS_OK) goto fail;
     if (!is_part(format, info)) {
         *out_samples = stored;
@@ -167,24 +221,39 @@ fail:
     return status;
 }
 
+static void set_stored(const ppmi_oiio_info *info, bool part, ppmi_pixels *pixels)
+{
+    const int64_t shift_x = part ? (int64_t)info->x - info->full_x : 0;
+    const int64_t shift_y = part ? (int64_t)info->y - info->full_y : 0;
+    const int64_t begin_x = larger(0, shift_x), begin_y = larger(0, shift_y);
+    pixels->stored_x = (uint32_t)smaller(begin_x, pixels->width);
+    pixels->stored_y = (uint32_t)smaller(begin_y, pixels->height);
+    pixels->stored_width =
+        (uint32_t)larger(0, smaller(pixels->width, shift_x + info->width) - begin_x);
+    pixels->stored_height =
+        (uint32_t)larger(0, smaller(pixels->height, shift_y + info->height) - begin_y);
+}
+
 static ppm_status decode(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
                          const ppmi_image_format *format, size_t byte_count,
                          const ppmi_oiio_info *info, ppmi_pixels *out_pixels)
 {
-    ppm_status status = check_header(context, name, format, byte_count, info);
+    const kept_channels kept = channels_to_keep(reader, info);
+    ppm_status status = check_header(context, name, format, byte_count, info, kept.count);
     if (status != PPM_STATUS_OK) return status;
     void *samples = NULL;
-    status = decode_samples(context, reader, name, format, info, &samples);
+    status = decode_samples(context, reader, name, format, info, kept, &samples);
     if (status != PPM_STATUS_OK) return status;
     const bool part = is_part(format, info);
     *out_pixels = (ppmi_pixels){
         .width = (uint32_t)(part ? info->full_width : info->width),
         .height = (uint32_t)(part ? info->full_height : info->height),
-        .channels = (uint32_t)channels_to_keep(info),
+        .channels = (uint32_t)kept.count,
         .u8 = info->is_u8 ? samples : NULL,
         .f32 = info->is_u8 ? NULL : samples,
         .is_linear = info->is_float,
     };
+    set_stored(info, part, out_pixels);
     if (info->is_associated && !format->keeps_alpha_straight) unassociate(out_pixels);
     return PPM_STATUS_OK;
 }

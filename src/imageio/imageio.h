@@ -18,11 +18,16 @@ typedef struct ppmi_pixels {
     uint8_t *u8;                      /* or NULL */
     float *f32;                       /* or NULL */
     bool is_linear;                   /* the file holds scene-linear values (HDR, EXR) */
+    /* The part that the file stores (OpenEXR's data window, cut to the picture); everything else is
+     * zero. Elsewhere the whole picture. */
+    uint32_t stored_x, stored_y, stored_width, stored_height;
 } ppmi_pixels;
 
-/* Decodes a file. name is used in messages. Files of more than 4 channels give the first four;
- * alpha is returned unassociated. Refuses images of more than 2^30 values (OUT_OF_MEMORY names the
- * size). Returns OK, INPUT_NOT_FOUND, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY. Any thread.
+/* Decodes a file. name is used in messages. Files of more than 4 channels give the first four, in
+ * OpenEXR files R, G, B (and A) of the layer without a name, else of the one called Combined, else
+ * of the first that has them; alpha is returned unassociated. Refuses images of more than 2^30
+ * values (OUT_OF_MEMORY names the size). Returns OK, INPUT_NOT_FOUND, INPUT_INVALID,
+ * INPUT_UNSUPPORTED, OUT_OF_MEMORY. Any thread.
  */
 ppm_status ppmi_imageio_read_file(ppm_context *context, const char *path, const char *name,
                                   ppmi_pixels *out_pixels);

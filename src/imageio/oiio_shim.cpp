@@ -111,12 +111,20 @@ ppm_status ppmi_oiio_open(ppm_context *context, const char *format, const void *
     });
 }
 
+const char *ppmi_oiio_channel_name(const ppmi_oiio_reader *reader, int32_t index) noexcept
+{
+    const std::vector<std::string> &names = reader->input->spec().channelnames;
+    return index >= 0 && (size_t)index < names.size() ? names[(size_t)index].c_str() : "";
+}
+
 ppm_status ppmi_oiio_read(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
-                          int32_t channels, bool as_u8, void *out_pixels) noexcept
+                          int32_t first, int32_t channels, bool as_u8, void *out_pixels) noexcept
 {
     return guarded(context, PPM_STATUS_INPUT_INVALID, name, [&]() -> ppm_status {
         const TypeDesc type = as_u8 ? TypeDesc::UINT8 : TypeDesc::FLOAT;
-        if (reader->input->read_image(0, 0, 0, channels, type, out_pixels)) return PPM_STATUS_OK;
+        if (reader->input->read_image(0, 0, first, first + channels, type, out_pixels)) {
+            return PPM_STATUS_OK;
+        }
         const std::string reason = message_of(*reader->input);
         return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: the pixels cannot be decoded: %s",
                          name, reason.c_str());

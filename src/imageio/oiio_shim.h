@@ -35,9 +35,13 @@ typedef struct ppmi_oiio_info {
 ppm_status ppmi_oiio_open(ppm_context *context, const char *format, const void *bytes,
                           size_t byte_count, const char *name, ppmi_oiio_reader **out_reader,
                           ppmi_oiio_info *out_info) PPMI_NOEXCEPT;
-/* The first channels of all stored pixels, packed: uint8_t where as_u8, else float. */
+/* "R", "diffuse.R"; index is below info.channels. Valid until the reader is closed. */
+const char *ppmi_oiio_channel_name(const ppmi_oiio_reader *reader, int32_t index) PPMI_NOEXCEPT;
+/* channels channels, from first on, of all stored pixels, packed: uint8_t where as_u8, else float.
+ */
 ppm_status ppmi_oiio_read(ppm_context *context, ppmi_oiio_reader *reader, const char *name,
-                          int32_t channels, bool as_u8, void *out_pixels) PPMI_NOEXCEPT;
+                          int32_t first, int32_t channels, bool as_u8,
+                          void *out_pixels) PPMI_NOEXCEPT;
 void ppmi_oiio_close(ppmi_oiio_reader *reader) PPMI_NOEXCEPT;
 
 /* Encodes file, whose pixels member is not used: pixels are uint8_t for PPMI_STORE_U8, uint16_t

@@ -1,5 +1,5 @@
 # Installs, moves the install tree, and builds a small host program out of it: by find_package and
-# by pkg-config. Runs both, and the installed ppm-render.
+# by pkg-config. Runs both, and the installed programs.
 function(run)
     execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output
         OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -12,6 +12,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
 file(RENAME ${WORK}/first ${WORK}/moved)
 set(prefix ${WORK}/moved)
 
+run(${prefix}/bin/ppm-compare --version)
 run(${prefix}/bin/ppm-render --version)
 set(version "${output}")
 
