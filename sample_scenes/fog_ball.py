@@ -3,7 +3,7 @@ a caustic cone, crosses, and spreads again. Seen from the side, for rendering wi
 
     blender --background --factory-startup --threads 1 --python sample_scenes/fog_ball.py
 
-writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `ppm-render --fog 0.1`
+writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `ppm-render --fog 0.1,0`
 adds it. `-- --reference OUT.exr SAMPLES` renders a reference by Cycles, without fog too.
 
 The ball's focal length from its middle is R n / (2 (n - 1)), 1.5 R for n = 1.5. With the lamp 3 m
@@ -71,7 +71,7 @@ def main():
     # from high up behind, to draw the rims of things
     rim = kit.emitter("Rim", (0.45, 0.62, 1.0), 1.0)
     kit.add_quad("Rim", (-1.6, 1.5, 3.3), (0, 0.4, -0.3), (3.6, 0, 0), rim)
-    kit.add_camera((0.45, -4.6, 1.50), (0.30, 0.0, 1.20), 42.0)
+    kit.add_camera((0.45, -4.6, 1.50), (0.32, 0.0, 1.215), 38.0)
     kit.finish(__file__)
 
 

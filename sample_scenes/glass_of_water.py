@@ -4,7 +4,8 @@ round glass, and a spot lamp from behind throws the caustic towards the viewer.
     blender --background --factory-startup --threads 1 --python sample_scenes/glass_of_water.py
 
 writes glass_of_water.glb beside this script. With `-- --reference OUT.exr SAMPLES` at the end it
-also renders a reference by Cycles, which knows no priorities: there a gap of air must be left.
+also renders a reference by Cycles, which knows no priorities: a ray counts the water's surface
+inside of the glass there, and its caustic is a little different.
 
 The water is a closed body that reaches a little into the glass, so that no film of air is left
 between them. Where both are, the glass has the higher priority and is what is there.
@@ -71,9 +72,10 @@ def add_straw(location):
     """A striped bar that leans in the glass, bent near its upper end. It stays clear of the glass:
     its lower end rests just above the floor, and it passes inside the rim."""
     x, y = location[:2]
-    red, white = kit.ceramic("Red", (0.60, 0.03, 0.02), 0.2), kit.ceramic("Cream", (0.8, 0.78, 0.7), 0.2)
-    low, knee = (x - 0.017, y + 0.006, BASE + 0.0045), (x + 0.0300, y - 0.004, 0.128)
-    end = (x + 0.062, y - 0.012, 0.150)
+    red = kit.ceramic("Red", (0.60, 0.03, 0.02), 0.2)
+    white = kit.ceramic("Cream", (0.80, 0.78, 0.70), 0.2)
+    low, knee = (x + 0.002, y - 0.006, BASE + 0.0045), (x + 0.0300, y + 0.0140, 0.128)
+    end = (x + 0.061, y + 0.020, 0.152)
     stripes = 12
     for i in range(stripes):
         a, b = ([p + (q - p) * t / stripes for p, q in zip(low, knee)] for t in (i, i + 1))

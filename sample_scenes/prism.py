@@ -136,7 +136,7 @@ def main():
     # mostly from above, so that the screen's front stays dark
     kit.add_quad("Glow", (-0.8, -0.1, 0.8), (0, 0.9, 0), (1.5, 0, 0), glow)
     report()
-    kit.add_camera((-0.31, -0.66, 0.37), (0.055, 0.22, 0.066), 42.0)
+    kit.add_camera((-0.31, -0.66, 0.37), (0.075, 0.255, 0.058), 39.0)
     kit.finish(__file__)
 
 
