@@ -95,6 +95,83 @@ def add_lathe(name, profile, material, location=(0.0, 0.0, 0.0), segments=128, c
     return add_mesh(name, vertices, faces, material, location)
 
 
+def arc(center, radius, start, end, steps):
+    """Points of (radius, height) on a circle; angles in degrees, 90 is up."""
+    turns = [math.radians(start + (end - start) * i / steps) for i in range(steps + 1)]
+    return [
+        (center[0] + radius * math.cos(turn), center[1] + radius * math.sin(turn))
+        for turn in turns
+    ]
+
+
+def line(start, end, steps):
+    """Points between start and end, without them: they keep the normals of long walls straight."""
+    (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
+    return [(x + dx * i / steps, y + dy * i / steps) for i in range(1, steps)]
+
+
+def add_cuboid(name, low, high, material, turn_degrees=0.0):
+    """A box between two corners, turned about the vertical through its middle."""
+    middle = [(a + b) / 2 for a, b in zip(low, high)]
+    x, y, z = ((b - a) / 2 for a, b in zip(low, high))
+    polygon = [(-x, -y), (x, -y), (x, y), (-x, y)]
+    box = add_column(name, polygon, -z, z, material, middle)
+    box.rotation_euler.z = math.radians(turn_degrees)
+    return box
+
+
+def add_column(name, polygon, bottom, top, material, location=(0.0, 0.0, 0.0)):
+    """A polygon (x, y), counter-clockwise seen from above, drawn out along z; flat faces."""
+    count = len(polygon)
+    vertices = [(x, y, z) for z in (bottom, top) for x, y in polygon]
+    faces = [tuple(reversed(range(count))), tuple(range(count, 2 * count))]
+    for i in range(count):
+        j = (i + 1) % count
+        faces.append((i, j, j + count, i + count))
+    return add_mesh(name, vertices, faces, material, location, smooth=False)
+
+
+def add_tube(name, points, radius, material, segments=24):
+    """A round bar along points, with flat ends that are its own faces; no sharp bends."""
+    points = [mathutils.Vector(point) for point in points]
+    vertices, side = [], None
+    for i, point in enumerate(points):
+        along = (points[min(i + 1, len(points) - 1)] - points[max(i - 1, 0)]).normalized()
+        guess = side or along.orthogonal()  # carried along, so that the bar is not twisted
+        side = (guess - along * guess.dot(along)).normalized()
+        other = along.cross(side)
+        for k in range(segments):
+            turn = 2.0 * math.pi * k / segments
+            vertices.append(point + radius * (math.cos(turn) * side + math.sin(turn) * other))
+    faces = []
+    for row in range(0, (len(points) - 1) * segments, segments):
+        for k in range(segments):
+            j = (k + 1) % segments
+            faces.append((row + k, row + j, row + segments + j, row + segments + k))
+    ends = (range(segments - 1, -1, -1), range(len(vertices) - segments, len(vertices)))
+    for ring in map(list, ends):
+        first = len(vertices)
+        vertices += [vertices[k].copy() for k in ring]
+        faces.append(tuple(range(first, first + segments)))
+    return add_mesh(name, vertices, faces, material)
+
+
+def add_spot(name, location, target, watts, angle_degrees, blend, color=(1.0, 1.0, 1.0)):
+    """A spot lamp; watts / 4 pi is its intensity as the renderer counts, angle the full cone.
+
+    Cycles' lamp is a ball of 4 mm radius, a glTF spot is a point.
+    """
+    data = bpy.data.lights.new(name, "SPOT")
+    data.energy = watts
+    data.color = color
+    data.spot_size = math.radians(angle_degrees)
+    data.spot_blend = blend
+    data.shadow_soft_size = 0.004
+    spot = link(name, data, location)
+    aim(spot, target)
+    return spot
+
+
 def add_camera(location, target, fov_degrees):
     """The camera, named "Camera"; fov is the angle of the picture's longer side."""
     data = bpy.data.cameras.new("Camera")
@@ -134,9 +211,24 @@ def lambert(name, color):
     return material
 
 
-def glass(name, ior, color=(1.0, 1.0, 1.0)):
-    """Smooth solid glass."""
-    return principled(name, color, Roughness=0.0, Transmission=1.0, IOR=ior)
+def glass(name, ior, color=(1.0, 1.0, 1.0), abbe=None, priority=0):
+    """Smooth solid glass. The Abbe number, and the priority where solids overlap, are written by
+    finish(); Cycles knows neither."""
+    material = principled(name, color, Roughness=0.0, Transmission=1.0, IOR=ior)
+    if abbe:
+        material["abbe"] = abbe
+    if priority:
+        material["priority"] = priority
+    return material
+
+
+def ceramic(name, color, roughness=0.0):
+    """A coloured body under a clear glaze of ior 1.5."""
+    return principled(name, color, Roughness=roughness, Specular=0.5)
+
+
+def metal(name, color, roughness):
+    return principled(name, color, Metallic=1.0, Roughness=roughness)
 
 
 def emitter(name, color, strength):
@@ -171,23 +263,36 @@ def export_glb(path):
         export_apply=True,
         export_texcoords=any(mesh.uv_layers for mesh in bpy.data.meshes),
     )
-    names = {material.name for material in bpy.data.materials if material.get("lambert")}
-    edit_glb(path, lambda gltf: make_lambert(gltf, names))
+    edit_glb(path, correct_materials)
 
 
-def make_lambert(gltf, names):
-    """Takes the specular lobe from the named materials.
+def correct_materials(gltf):
+    """Writes into the materials what the scripts have noted on Blender's."""
+    for material in gltf["materials"]:
+        noted = bpy.data.materials[material["name"]]
+        if noted.get("lambert"):
+            make_lambert(gltf, material)
+        if noted.get("abbe"):
+            dispersion = {"dispersion": round(20.0 / noted["abbe"], 6)}
+            add_extension(gltf, material, "KHR_materials_dispersion", dispersion)
+        if noted.get("priority"):
+            material["extras"] = {"ppm_priority": noted["priority"]}
+
+
+def add_extension(gltf, material, name, values):
+    material.setdefault("extensions", {})[name] = values
+    if name not in gltf.setdefault("extensionsUsed", []):
+        gltf["extensionsUsed"].append(name)
+
+
+def make_lambert(gltf, material):
+    """Takes the specular lobe from a material.
 
     Blender 3.4 writes Principled's "Specular 0" as specularColorFactor 0, which by
     KHR_materials_specular only takes F0 to 0: F90 stays 1 and the wall mirrors at grazing
     angles, which Cycles does not show. specularFactor 0 takes both away.
     """
-    for material in gltf["materials"]:
-        if material["name"] in names:
-            extensions = material.setdefault("extensions", {})
-            extensions["KHR_materials_specular"] = {"specularFactor": 0}
-            if "KHR_materials_specular" not in gltf.setdefault("extensionsUsed", []):
-                gltf["extensionsUsed"].append("KHR_materials_specular")
+    add_extension(gltf, material, "KHR_materials_specular", {"specularFactor": 0})
 
 
 def edit_glb(path, edit):

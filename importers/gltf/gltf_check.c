@@ -309,6 +309,7 @@ static bool check_object(checker *c, const gltf_field *field)
 {
     const bool is_object = ppmi_gltf_json_peek(&c->json) == '{';
     const size_t begin = c->json.at;
+    if (!is_object && (field->flags & GLTF_FREE_FORM)) return skip_value(c);
     if (!is_object) return skip_value(c) && complain(c, field, begin, "expected an object");
     return check_members(c, field->fields);
 }

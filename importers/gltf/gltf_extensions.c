@@ -7,10 +7,18 @@
 enum { MAX_LISTED = 64 }; /* of the used ones */
 
 static const char *const supported[] = {
-    "EXT_mesh_gpu_instancing",         "EXT_texture_webp",      "KHR_lights_punctual",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",     "KHR_materials_specular",
-    "KHR_materials_transmission",      "KHR_materials_unlit",   "KHR_materials_volume",
-    "KHR_mesh_quantization",           "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 static bool is_supported(const char *name)

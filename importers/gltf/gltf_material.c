@@ -123,12 +123,26 @@ static void convert_transmission(conversion *c)
         desc->attenuation_color);
     set(c, "KHR_materials_volume.attenuationDistance", &from->attenuation_distance, 1, 0.0,
         HUGE_VALUE, &desc->attenuation_distance_m);
+    set(c, "KHR_materials_dispersion.dispersion", &from->dispersion, 1, 0.0, 1000.0,
+        &desc->dispersion);
     desc->transmission_kind = transmission_kind(c->reader, from->thickness);
     if (desc->transmission_kind == PPM_TRANSMISSION_SOLID) {
         c->reader->tally.solid_glass++;
     } else {
         c->reader->tally.thin_glass++;
     }
+}
+
+/* glTF has no word for which of two overlapping solids is there, so it is one of ours. */
+static void convert_priority(conversion *c)
+{
+    const double value = c->from->priority;
+    if (value == floor(value) && value >= INT32_MIN && value <= INT32_MAX) {
+        c->desc.nested_priority = (int32_t)value;
+        return;
+    }
+    ppmi_gltf_warn(c->reader, c->place,
+                   "extras.ppm_priority is %g, expected an integer of 32 bits; 0 is used", value);
 }
 
 /* KHR_materials_unlit: a surface that looks the same in any light is one that shines and reflects
@@ -160,6 +174,7 @@ static void convert(conversion *c)
     convert_emission(c);
     convert_dielectric(c);
     convert_transmission(c);
+    convert_priority(c);
 }
 
 /* ---- use ------------------------------------------------------------------------------------- */

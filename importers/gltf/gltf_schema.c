@@ -143,6 +143,7 @@ static const gltf_field pbr[] = {NUMBERS("baseColorFactor", 4, 0),
                                  NUMBER("roughnessFactor"),
                                  OBJECT("metallicRoughnessTexture", texture_info),
                                  END};
+static const gltf_field dispersion[] = {NUMBER("dispersion"), END};
 static const gltf_field emissive_strength[] = {NUMBER("emissiveStrength"), END};
 static const gltf_field ior[] = {NUMBER("ior"), END};
 static const gltf_field specular[] = {
@@ -155,6 +156,7 @@ static const gltf_field volume[] = {
     NUMBER("attenuationDistance"), NUMBERS("attenuationColor", 3, 0), END};
 static const gltf_field no_fields[] = {END};
 static const gltf_field material_extensions[] = {
+    OBJECT("KHR_materials_dispersion", dispersion),
     OBJECT("KHR_materials_emissive_strength", emissive_strength),
     OBJECT("KHR_materials_ior", ior),
     OBJECT("KHR_materials_specular", specular),
@@ -162,6 +164,8 @@ static const gltf_field material_extensions[] = {
     OBJECT("KHR_materials_unlit", no_fields),
     OBJECT("KHR_materials_volume", volume),
     END};
+/* extras may be anything (specification, 3.4); ours is an object with this member */
+static const gltf_field material_extras[] = {NUMBER("ppm_priority"), END};
 static const gltf_field material[] = {
     STRING("name"),
     OBJECT("pbrMetallicRoughness", pbr),
@@ -173,6 +177,7 @@ static const gltf_field material[] = {
     NUMBER("alphaCutoff"),
     FIELD("doubleSided", GLTF_BOOLEAN),
     OBJECT("extensions", material_extensions),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = material_extras),
     END};
 
 static const gltf_field texture_source[] = {INDEX("source", GLTF_REQUIRED), END};

@@ -21,9 +21,10 @@ typedef enum gltf_kind {
 
 enum {
     GLTF_REQUIRED = 1,
-    GLTF_VITAL = 2,             /* a wrong value breaks the element; otherwise it becomes null */
-    GLTF_NAMES_MEMBER = 4,      /* the chosen string names another member, which is then required */
-    GLTF_EMPTY_FOR_TINYGLTF = 8 /* tinygltf gets [] */
+    GLTF_VITAL = 2,        /* a wrong value breaks the element; otherwise it becomes null */
+    GLTF_NAMES_MEMBER = 4, /* the chosen string names another member, which is then required */
+    GLTF_EMPTY_FOR_TINYGLTF = 8, /* tinygltf gets [] */
+    GLTF_FREE_FORM = 16 /* OBJECT: a value of any other kind is as good, and not looked at */
 };
 
 typedef struct gltf_field {

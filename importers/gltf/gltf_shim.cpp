@@ -136,6 +136,7 @@ void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material
     out->thickness = number_or(volume, "thicknessFactor", 0.0);
     out->attenuation_distance = number_or(volume, "attenuationDistance", 0.0);
     numbers_or(volume, "attenuationColor", out->attenuation_color, 3, 1.0);
+    out->dispersion = number_or(extension(map, "KHR_materials_dispersion"), "dispersion", 0.0);
 }
 
 ppmi_gltf_material copy_material(const tinygltf::Material &from)
@@ -156,6 +157,7 @@ ppmi_gltf_material copy_material(const tinygltf::Material &from)
     out.alpha_cutoff = from.alphaCutoff;
     out.double_sided = from.doubleSided;
     copy_material_extensions(from, &out);
+    out.priority = number_or(from.extras, "ppm_priority", 0.0);
     return out;
 }
 

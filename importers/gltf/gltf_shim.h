@@ -124,6 +124,8 @@ typedef struct ppmi_gltf_material {
     double transmission;
     ppmi_gltf_texture_info transmission_texture;
     double thickness, attenuation_color[3], attenuation_distance; /* distance 0: infinite */
+    double dispersion;                                            /* 20 / Abbe number; 0: none */
+    double priority; /* extras.ppm_priority; 0 where it is not given */
 } ppmi_gltf_material;
 
 typedef struct ppmi_gltf_texture {

@@ -185,6 +185,92 @@ static void glass_without_a_volume_is_thin(void **state)
                      PPM_TRANSMISSION_THIN);
 }
 
+static void dispersion_is_read_as_a_supported_extension(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x", GLASS ",'KHR_materials_dispersion':{'dispersion':0.75}}");
+    assert_values(&m->dispersion, 1, (const float[]){0.75f});
+    assert_values(&import_material(f, "x", GLASS "}")->dispersion, 1, (const float[]){0});
+    gltf_reset(f);
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'extensionsRequired':["
+                       "'KHR_materials_dispersion'],'extensionsUsed':["
+                       "'KHR_materials_dispersion'],'nodes':[{'mesh':0}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
+    assert_false(gltf_logged(f, 'W', "KHR_materials_dispersion"));
+}
+
+static void bad_dispersion_is_told_and_ignored_or_brought_into_range(void **state)
+{
+    static const struct {
+        const char *value, *warning;
+        float expected;
+    } cases[] = {
+        {"'strong'", "materials[0].extensions.KHR_materials_dispersion.dispersion: expected a", 0},
+        {"1e300", "materials[0].extensions.KHR_materials_dispersion.dispersion: the number is", 0},
+        {"1e30", "materials[0]: KHR_materials_dispersion.dispersion is brought into 0 .. 1000",
+         1000},
+        {"-1", "materials[0]: KHR_materials_dispersion.dispersion is brought into 0 .. 1000", 0},
+    };
+    gltf_fixture *f = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char material[200];
+        snprintf(material, sizeof material, GLASS ",'KHR_materials_dispersion':{'dispersion':%s}}",
+                 cases[i].value);
+        const ppm_material_desc *m = import_material(f, "x", material);
+        assert_values(&m->dispersion, 1, &cases[i].expected);
+        assert_gltf_logged(f, 'W', cases[i].warning);
+    }
+}
+
+static void the_priority_of_overlapping_solids_is_read_from_extras(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x", "'extras':{'author':{'name':'x'},'ppm_priority':7}");
+    assert_int_equal(m->nested_priority, 7);
+    m = import_material(f, "x", "'extras':{'ppm_priority':-2147483648}");
+    assert_int_equal(m->nested_priority, INT32_MIN);
+    m = import_material(f, "x", "'extras':{'ppm_priority':2147483647}");
+    assert_int_equal(m->nested_priority, INT32_MAX);
+    assert_int_equal(import_material(f, "x", "'extras':{}")->nested_priority, 0);
+    assert_false(gltf_logged(f, 'W', ""));
+}
+
+static void a_bad_priority_is_told_and_ignored(void **state)
+{
+    static const char *const cases[][2] = {
+        {"'high'", "materials[0].extras.ppm_priority: expected a number"},
+        {"[1]", "materials[0].extras.ppm_priority: expected a number"},
+        {"1e300", "materials[0].extras.ppm_priority: the number is too large"},
+        {"2147483648", "materials[0]: extras.ppm_priority is 2.14748e+09"},
+        {"-1e30", "materials[0]: extras.ppm_priority is -1e+30"},
+        {"1.5", "materials[0]: extras.ppm_priority is 1.5, expected an integer"},
+    };
+    gltf_fixture *f = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char material[100];
+        snprintf(material, sizeof material, "'extras':{'ppm_priority':%s}", cases[i][0]);
+        assert_int_equal(import_material(f, "x", material)->nested_priority, 0);
+        assert_gltf_logged(f, 'W', cases[i][1]);
+    }
+}
+
+/* The specification lets extras be any value, so only ours is looked at. */
+static void extras_of_another_kind_are_fine(void **state)
+{
+    static const char *const cases[] = {"'text'", "3", "[1,'two',{}]", "true", "null"};
+    gltf_fixture *f = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char material[100];
+        snprintf(material, sizeof material, "'extras':%s", cases[i]);
+        assert_int_equal(import_material(f, "x", material)->nested_priority, 0);
+        assert_false(gltf_logged(f, 'W', ""));
+    }
+}
+
 static void glass_is_not_mentioned_without_any(void **state)
 {
     gltf_fixture *f = *state;
@@ -243,6 +329,11 @@ int main(void)
         TEST(thickness_generator_and_option_decide_about_glass),
         TEST(glass_without_a_volume_is_thin),
         TEST(glass_is_not_mentioned_without_any),
+        TEST(dispersion_is_read_as_a_supported_extension),
+        TEST(bad_dispersion_is_told_and_ignored_or_brought_into_range),
+        TEST(the_priority_of_overlapping_solids_is_read_from_extras),
+        TEST(a_bad_priority_is_told_and_ignored),
+        TEST(extras_of_another_kind_are_fine),
         TEST(samplers_set_wrap_and_filter),
         TEST(texture_transforms_turn_counter_clockwise),
         TEST(a_texture_coordinate_set_that_is_too_high_is_left_out),
