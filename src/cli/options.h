@@ -2,6 +2,7 @@
 #ifndef PPM_CLI_OPTIONS_H
 #define PPM_CLI_OPTIONS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -28,6 +29,21 @@ typedef struct image_size {
     uint32_t width, height; /* 0: not said */
 } image_size;
 
+/* A part of the picture: x0, y0, x1, y1, in pixels, or in shares of the picture's sides. */
+typedef struct crop_window {
+    bool is_given, is_in_shares;
+    double sides[4];
+} crop_window;
+
+typedef struct shutter_times {
+    double open, close; /* frames */
+} shutter_times;
+
+typedef struct filter_choice {
+    int32_t kind; /* PPM_PIXEL_FILTER_ */
+    double width; /* pixels; 0: not said */
+} filter_choice;
+
 /* 0 or NULL: not given, unless a comment says otherwise. Strings belong to argv. */
 typedef struct cli_options {
     int32_t action;    /* ACTION_ */
@@ -50,6 +66,12 @@ typedef struct cli_options {
     uint64_t threads;
 
     const char *camera;
+    double aperture;   /* f-number */
+    const char *focus; /* metres, or the name of a node */
+    shutter_times shutter;
+    crop_window crop;
+    filter_choice filter;
+
     const char *environment;
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */

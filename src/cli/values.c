@@ -66,6 +66,25 @@ bool value_parse_real(const char *text, double *out_value)
     return true;
 }
 
+bool value_parse_reals(const char *text, double *out_values, size_t count)
+{
+    enum { COUNT_MAX = 8 };
+    double values[COUNT_MAX];
+    if (count > COUNT_MAX) return false;
+    for (size_t i = 0; i < count; i++) {
+        char word[64];
+        const size_t length = strcspn(text, ",");
+        const bool is_last = text[length] == '\0';
+        if (length >= sizeof word || is_last != (i + 1 == count)) return false;
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (!value_parse_real(word, &values[i])) return false;
+        text += length + 1;
+    }
+    memcpy(out_values, values, count * sizeof *values);
+    return true;
+}
+
 bool value_parse_size(const char *text, uint32_t *out_width, uint32_t *out_height)
 {
     uint64_t width = 0, height = 0;

@@ -92,6 +92,20 @@ static void sizes_are_two_integers(void **state)
     assert_int_equal(width, 640);
 }
 
+static void lists_have_as_many_numbers_as_are_wanted(void **state)
+{
+    (void)state;
+    double values[3] = {7.0, 7.0, 7.0};
+    assert_true(value_parse_reals("0.5,-1,2e1", values, 3));
+    assert_true(values[0] == 0.5 && values[1] == -1.0 && values[2] == 20.0);
+    static const char *const words[] = {"",     "1",     "1,2",    "1,2,3,4", "1,2,",
+                                        ",2,3", "1,x,3", "1, 2,3", "1;2;3"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (value_parse_reals(words[i], values, 3)) fail_msg("'%s' was taken", words[i]);
+    }
+    assert_true(values[0] == 0.5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -102,6 +116,7 @@ int main(void)
         cmocka_unit_test(words_that_are_no_numbers_are_refused),
         cmocka_unit_test(numbers_may_have_sign_point_and_exponent),
         cmocka_unit_test(sizes_are_two_integers),
+        cmocka_unit_test(lists_have_as_many_numbers_as_are_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
