@@ -27,11 +27,12 @@ typedef struct ppm_output_options {
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
 /* Writes the picture so far of a session; the ending of path says the kind:
- *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply.
+ *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply. With a
+ *                      crop: its pixels are the data window, the whole picture the display window.
  *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
  *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
  *                      ppm:camera, ppm:command
- *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color.
+ *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
  * color may be NULL for .exr. options may be NULL.
  * Threads: not while another thread is in ppm_render_advance.
  * Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY,

@@ -42,8 +42,8 @@ enum {
 enum {
     PPM_PIXEL_FILTER_DEFAULT = 0,        /* BLACKMAN_HARRIS */
     PPM_PIXEL_FILTER_BOX = 1,            /* default width 1 */
-    PPM_PIXEL_FILTER_GAUSSIAN = 2,       /* cut off at its width; default 3 */
-    PPM_PIXEL_FILTER_BLACKMAN_HARRIS = 3 /* default width 3 */
+    PPM_PIXEL_FILTER_GAUSSIAN = 2,       /* standard deviation width / 6, cut off; default 3 */
+    PPM_PIXEL_FILTER_BLACKMAN_HARRIS = 3 /* default 3, which Blender's Cycles calls 1.5 */
 };
 
 /* 0 in any field means its default. */
@@ -67,14 +67,17 @@ typedef struct ppm_render_options {
     int32_t split_depth;        /* PPM: surfaces at which an eye path follows all its branches;
                                    default 4; negative: none, branches are drawn at random */
 
-    float aperture_f_number;  /* default: the camera's own; infinite: a pinhole */
-    float focus_distance_m;   /* along the axis; default: the camera's own */
-    float shutter_open;       /* frames, relative to the one that is rendered; */
-    float shutter_close;      /* both 0: a moment */
-    uint32_t crop[4];         /* x0, y0, x1, y1 in pixels of the whole picture, the upper bounds
-                                 excluded; all 0: the whole picture */
-    int32_t pixel_filter;     /* PPM_PIXEL_FILTER_ */
-    float pixel_filter_width; /* pixels; default: the filter's own */
+    float aperture_f_number; /* default: the camera's own; infinite: a pinhole; else at least 0.001.
+                                An orthographic camera has none: resolved to infinite */
+    float focus_distance_m;  /* along the axis; default: the camera's own. With an aperture and no
+                                distance of either, the session focuses on what is in the middle of
+                                the whole picture; ppm_render_get_options has the distance */
+    float shutter_open;      /* frames, relative to the one that is rendered; */
+    float shutter_close;     /* not before open; both the same: a moment */
+    uint32_t crop[4];        /* x0, y0, x1, y1 in pixels of the whole picture, the upper bounds
+                                excluded; all 0: the whole picture */
+    int32_t pixel_filter;    /* PPM_PIXEL_FILTER_ */
+    float pixel_filter_width; /* pixels, 0.001 .. 100; default: the filter's own */
 } ppm_render_options;
 
 /* The options in effect: defaults filled in for this scene. Returns INVALID_ARGUMENT for values
@@ -87,7 +90,8 @@ PPM_API ppm_status ppm_render_options_resolve(const ppm_scene *scene,
  * the film. The scene must outlive the session. options may be NULL.
  * A scene without a camera gets ppm_scene_add_framing_camera, one without any light a uniform
  * environment of 1 nit with a grey backdrop; both are logged (INFO). Several sessions may share a
- * frozen scene. Returns OK, INVALID_ARGUMENT, WRONG_STATE (nothing to render), OUT_OF_MEMORY. */
+ * frozen scene. Returns OK, INVALID_ARGUMENT (also: nothing to focus on), WRONG_STATE (nothing to
+ * render), OUT_OF_MEMORY. */
 PPM_API ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
                                      ppm_render **out_render);
 PPM_API void ppm_render_destroy(ppm_render *render);

@@ -181,6 +181,15 @@ typedef struct ppm_instance_desc {
 PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,
                                           ppm_instance_id *out_id);
 
+PPM_API uint32_t ppm_scene_instance_count(const ppm_scene *scene);
+/* The name of an instance, never NULL for a valid id; NULL otherwise. Several may have the same.
+ * Valid until destroy. */
+PPM_API const char *ppm_scene_instance_name(const ppm_scene *scene, ppm_instance_id id);
+/* The box around an instance, world space. Returns OK, INVALID_ARGUMENT (no such instance, or one
+ * without triangles). */
+PPM_API ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id,
+                                             float out_min[3], float out_max[3]);
+
 /* ---- cameras --------------------------------------------------------------------------------- */
 
 enum { PPM_CAMERA_PERSPECTIVE = 0, PPM_CAMERA_ORTHOGRAPHIC = 1 };
@@ -205,6 +214,10 @@ PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc 
 PPM_API uint32_t ppm_scene_camera_count(const ppm_scene *scene);
 /* The name of a camera, never NULL for a valid id; NULL otherwise. Valid until destroy. */
 PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id id);
+/* Where a camera stands and how it is turned: its transform without scale. Returns OK,
+ * INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
+                                              float out_transform[16]);
 /* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
  * and above), for the given aspect (width / height). Returns also WRONG_STATE when the scene has
  * no instance. */

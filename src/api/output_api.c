@@ -54,6 +54,10 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
                             options->command);
     file->attributes = header.attributes;
     file->attribute_count = header.count;
+    file->full_width = rendered->width;
+    file->full_height = rendered->height;
+    file->x = rendered->crop[0];
+    file->y = rendered->crop[1];
     if (options->depth == PPM_DEPTH_HALF) file->store = PPMI_STORE_HALF;
     return ppmi_imageio_write_file(context, path, file);
 }
@@ -115,15 +119,16 @@ ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, co
     ppm_status status = check_arguments(context, color, path, format, options);
     if (status != PPM_STATUS_OK) return status;
 
-    const ppm_render_options *const rendered = ppm_render_get_options(render);
-    const size_t value_count = (size_t)rendered->width * rendered->height * 4;
+    const uint32_t *const crop = ppm_render_get_options(render)->crop;
+    const uint32_t width = crop[2] - crop[0], height = crop[3] - crop[1];
+    const size_t value_count = (size_t)width * height * 4;
     float *const rgba = ppmi_alloc(context, value_count, sizeof *rgba);
     if (!rgba) {
         return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory for %u x %u pixels",
-                         path, rendered->width, rendered->height);
+                         path, width, height);
     }
-    ppmi_image_file file = {.width = rendered->width,
-                            .height = rendered->height,
+    ppmi_image_file file = {.width = width,
+                            .height = height,
                             .channels = 4,
                             .pixels = rgba,
                             .store = format->usual_store};

@@ -7,6 +7,7 @@
 
 #include <assert.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 
 static ppmi_image_attribute *add(ppmi_output_header *header, const char *name, int32_t type)
@@ -44,20 +45,48 @@ static void add_count(ppmi_output_header *header, const char *name, uint64_t val
     add_text(header, name, text);
 }
 
+static const char *filter_name(int32_t filter)
+{
+    switch (filter) {
+    case PPM_PIXEL_FILTER_BOX:
+        return "box";
+    case PPM_PIXEL_FILTER_GAUSSIAN:
+        return "gaussian";
+    }
+    return "blackman-harris";
+}
+
+/* The camera's part. A pinhole has no focus, whatever was asked for. */
+static void write_camera_options(char *text, size_t size, const ppm_render_options *options)
+{
+    const uint32_t *const crop = options->crop;
+    int length = snprintf(text, size,
+                          " camera=%" PRIu32 " crop=%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32
+                          " filter=%s,%.9g shutter=%.9g,%.9g",
+                          options->camera, crop[0], crop[1], crop[2], crop[3],
+                          filter_name(options->pixel_filter), (double)options->pixel_filter_width,
+                          (double)options->shutter_open, (double)options->shutter_close);
+    if (!isinf(options->aperture_f_number)) {
+        snprintf(text + length, size - (size_t)length, " aperture=%.9g focus_m=%.9g",
+                 (double)options->aperture_f_number, (double)options->focus_distance_m);
+    }
+}
+
 /* All options that shape the picture; the number of threads does not. */
 static void write_options(char *text, size_t size, const char *integrator,
                           const ppm_render_options *options)
 {
+    char camera[256];
+    write_camera_options(camera, sizeof camera, options);
     snprintf(text, size,
              "integrator=%s width=%" PRIu32 " height=%" PRIu32 " photons_per_pass=%" PRIu64
-             " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64 " camera=%" PRIu32
-             " schedule=%s direct=%s photons_per_epoch=%" PRIu64 " split_depth=%" PRId32,
+             " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64
+             " schedule=%s direct=%s photons_per_epoch=%" PRIu64 " split_depth=%" PRId32 "%s",
              integrator, options->width, options->height, options->photons_per_pass,
              options->max_depth, (double)options->radius_m, (double)options->alpha, options->seed,
-             options->camera,
              options->schedule == PPM_SCHEDULE_MEMORYLESS ? "memoryless" : "progressive",
              options->direct == PPM_DIRECT_PHOTONS ? "photons" : "sample",
-             options->photons_per_epoch, options->split_depth);
+             options->photons_per_epoch, options->split_depth, camera);
 }
 
 void ppmi_output_header_init_display(ppmi_output_header *header)

@@ -12,7 +12,7 @@ typedef struct ppmi_output_header {
     ppmi_image_attribute attributes[PPMI_OUTPUT_ATTRIBUTES_MAX];
     uint32_t count;
     char software[32];
-    char options[512];
+    char options[1024];
     char counts[PPMI_OUTPUT_COUNTS_MAX][24];
     uint32_t text_count; /* of counts */
 } ppmi_output_header;

@@ -22,20 +22,48 @@ void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t h
     };
 }
 
-ppmi_camera_ray ppmi_camera_view_ray(const ppmi_camera_view *view, float x, float y)
+float ppmi_camera_view_focal_length(const ppmi_camera_view *view)
+{
+    const float longer_half = ppmi_max(vec3_length(view->right), vec3_length(view->up));
+    return 0.5f * PPMI_SENSOR_SIDE_M / longer_half;
+}
+
+void ppmi_camera_view_set_lens(ppmi_camera_view *view, float f_number, float focus_distance_m)
+{
+    if (!view->is_perspective || isinf(f_number)) return;
+    const float radius = ppmi_camera_view_focal_length(view) / (2.0f * f_number);
+    view->lens_right = vec3_scale(vec3_normalize(view->right), radius);
+    view->lens_up = vec3_scale(vec3_normalize(view->up), radius);
+    view->inverse_focus = 1.0f / focus_distance_m;
+    view->has_lens = true;
+}
+
+ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x, float y,
+                                          ppmi_vec2 lens)
 {
     const float sx = 2.0f * x / view->width - 1.0f;
     const float sy = 1.0f - 2.0f * y / view->height;
-    const ppmi_vec3 offset = vec3_mad(vec3_scale(view->right, sx), view->up, sy);
+    ppmi_vec3 offset = vec3_mad(vec3_scale(view->right, sx), view->up, sy);
     ppmi_camera_ray result = {
         .ray = {.origin = view->origin, .t_max = INFINITY, .direction = view->forward},
         .base_width = view->base_width,
         .spread = view->spread,
     };
-    if (view->is_perspective) {
-        result.ray.direction = vec3_normalize(vec3_add(view->forward, offset));
-    } else {
+    if (!view->is_perspective) {
         result.ray.origin = vec3_add(view->origin, offset);
+        return result;
     }
+    if (view->has_lens) { /* all points of the lens aim at one point of the sharp plane */
+        const ppmi_vec3 shift =
+            vec3_mad(vec3_scale(view->lens_right, lens.x), view->lens_up, lens.y);
+        result.ray.origin = vec3_add(view->origin, shift);
+        offset = vec3_mad(offset, shift, -view->inverse_focus);
+    }
+    result.ray.direction = vec3_normalize(vec3_add(view->forward, offset));
     return result;
+}
+
+ppmi_camera_ray ppmi_camera_view_ray(const ppmi_camera_view *view, float x, float y)
+{
+    return ppmi_camera_view_lens_ray(view, x, y, (ppmi_vec2){0.0f, 0.0f});
 }

@@ -29,8 +29,8 @@ double brightness_stops_over_grey(const float *rgba, size_t pixel_count)
 
 void brightness_advise(cli_console *console, const ppm_render *render, double exposure_ev)
 {
-    const ppm_render_options *const options = ppm_render_get_options(render);
-    const size_t pixel_count = (size_t)options->width * options->height;
+    const uint32_t *const crop = ppm_render_get_options(render)->crop;
+    const size_t pixel_count = (size_t)(crop[2] - crop[0]) * (crop[3] - crop[1]);
     float *const rgba = calloc(pixel_count, 4 * sizeof *rgba);
     /* without memory for it there is no advice; the pictures are written already */
     if (rgba && ppm_render_read_image(render, rgba, 4 * pixel_count) == PPM_STATUS_OK) {

@@ -82,8 +82,14 @@ static int create_render(cli_program *program)
 static void say_what_begins(cli_console *console, const ppm_render *render)
 {
     const ppm_render_options *const options = ppm_render_get_options(render);
-    console_message(console, PPM_LOG_INFO, "rendering %u x %u pixels, seed %llu", options->width,
-                    options->height, (unsigned long long)options->seed);
+    const uint32_t *const crop = options->crop;
+    const uint32_t width = crop[2] - crop[0], height = crop[3] - crop[1];
+    char whole[48] = "";
+    if (width < options->width || height < options->height) {
+        snprintf(whole, sizeof whole, " of %u x %u", options->width, options->height);
+    }
+    console_message(console, PPM_LOG_INFO, "rendering %u x %u%s pixels, seed %llu", width, height,
+                    whole, (unsigned long long)options->seed);
 }
 
 /* After a finished pass. */

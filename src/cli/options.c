@@ -27,6 +27,9 @@ typedef enum value_kind {
     VALUE_BACKGROUND, /* background_choice */
     VALUE_FOG,        /* fog_values */
     VALUE_SPLIT,      /* int32_t: a number, 0 stored as -1 */
+    VALUE_SHUTTER,    /* shutter_times */
+    VALUE_CROP,       /* crop_window */
+    VALUE_FILTER,     /* filter_choice, from a list of names */
     VALUE_CHOICE      /* int32_t, from a list of names */
 } value_kind;
 
@@ -42,8 +45,8 @@ typedef struct option_row {
     size_t field; /* offset in cli_options */
     int32_t set;
     uint64_t least, most;  /* INTEGER, COUNT, SIZE (each side) */
-    double low, high;      /* REAL */
-    const choice *choices; /* CHOICE */
+    double low, high;      /* REAL; FILTER: of the width */
+    const choice *choices; /* CHOICE, FILTER */
     const char *argument;  /* as the help shows it */
     const char *help;      /* lines separated by \n */
     const char *group;     /* a heading, where a group begins */
@@ -57,6 +60,10 @@ static const choice schedules[] = {
     {"progressive", PPM_SCHEDULE_PROGRESSIVE}, {"memoryless", PPM_SCHEDULE_MEMORYLESS}, {NULL, 0}};
 static const choice directs[] = {
     {"sample", PPM_DIRECT_SAMPLE}, {"photons", PPM_DIRECT_PHOTONS}, {NULL, 0}};
+static const choice filters[] = {{"box", PPM_PIXEL_FILTER_BOX},
+                                 {"gaussian", PPM_PIXEL_FILTER_GAUSSIAN},
+                                 {"blackman-harris", PPM_PIXEL_FILTER_BLACKMAN_HARRIS},
+                                 {NULL, 0}};
 static const choice light_units[] = {{"auto", PPM_LIGHT_UNITS_AUTO},
                                      {"gltf", PPM_LIGHT_UNITS_GLTF},
                                      {"blender", PPM_LIGHT_UNITS_BLENDER},
@@ -120,10 +127,27 @@ static const option_row rows[] = {
     {"threads", 0, VALUE_INTEGER, FIELD(threads), .least = 1, .most = 4096, .argument = "N",
      .help = "does not change the picture (default: all processors)"},
 
-    {"camera", 0, VALUE_TEXT, FIELD(camera), .argument = "NAME|N", .group = "Scene",
+    {"camera", 0, VALUE_TEXT, FIELD(camera), .argument = "NAME|N", .group = "Camera",
      .help = "by name, or by number from 1 (default: the first; a file\n"
              "without a camera is shown whole)"},
-    {"env", 0, VALUE_TEXT, FIELD(environment), .argument = "FILE",
+    {"aperture", 0, VALUE_REAL, FIELD(aperture), .low = 0.001, .high = 1e6, .argument = "F",
+     .help = "f-number of a lens that blurs what is out of focus; less\n"
+             "blurs more (default: the camera's own, else all is sharp)"},
+    {"focus", 0, VALUE_TEXT, FIELD(focus), .argument = "R|NODE",
+     .help = "what is sharp: metres along the axis, or the name of a node\n"
+             "(default: what is in the middle of the picture)"},
+    {"shutter", 0, VALUE_SHUTTER, FIELD(shutter), .argument = "OPEN,CLOSE",
+     .help = "frames before and after the moment, as -0.25,0.25\n"
+             "(default: a moment)"},
+    {"crop", 0, VALUE_CROP, FIELD(crop), .argument = "X0,Y0,X1,Y1",
+     .help = "a part of the picture, in pixels from its upper left, X1 and\n"
+             "Y1 excluded; or in shares, as 0.0,0.5,1.0,1.0"},
+    {"filter", 0, VALUE_FILTER, FIELD(filter), .low = 0.001, .high = 100, .choices = filters,
+     .argument = "NAME[,W]",
+     .help = "what a pixel averages over: box, gaussian, blackman-harris;\n"
+             "W pixels wide (default: blackman-harris,3)"},
+
+    {"env", 0, VALUE_TEXT, FIELD(environment), .argument = "FILE", .group = "Scene",
      .help = "light from a latitude-longitude picture, besides INPUT's lights"},
     {"env-rotation", 0, VALUE_REAL, FIELD(environment_rotation_deg), .low = -360, .high = 360,
      .argument = "DEGREES",
@@ -362,25 +386,79 @@ static int store_background(const option_row *row, const char *text, background_
     return EXIT_DONE;
 }
 
-static int store_choice(const option_row *row, const char *text, int32_t *field)
+/* length letters of text are the name. */
+static int store_name(const option_row *row, const char *text, size_t length, int32_t *field)
 {
     enum { CHOICES_MAX = 16 };
     const char *names[CHOICES_MAX];
     size_t count = 0;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
     for (const choice *each = row->choices; each->name && count < CHOICES_MAX; each++) {
-        if (strcmp(each->name, text) == 0) {
+        if (strcmp(each->name, name) == 0) {
             *field = each->value;
             return EXIT_DONE;
         }
         names[count++] = each->name;
     }
-    const char *const nearest = ppmi_suggest(text, names, count);
-    fprintf(stderr, "ppm-render: error: --%s: '%s' is not one of", row->name, text);
+    const char *const nearest = ppmi_suggest(name, names, count);
+    fprintf(stderr, "ppm-render: error: --%s: '%s' is not one of", row->name, name);
     for (size_t i = 0; i < count; i++)
         fprintf(stderr, "%s %s", i ? "," : "", names[i]);
     if (nearest) fprintf(stderr, "; did you mean '%s'?", nearest);
     fputc('\n', stderr);
     return give_hint();
+}
+
+static int store_shutter(const option_row *row, const char *text, shutter_times *field)
+{
+    double times[2] = {0.0, 0.0};
+    size_t count = 0;
+    if (!value_parse_reals(text, 2, times, &count) || count != 2 || times[0] > times[1] ||
+        times[0] < -1e6 || times[1] > 1e6) {
+        return complain(row, text, "two numbers of frames like -0.25,0.25, the smaller first");
+    }
+    *field = (shutter_times){times[0], times[1]};
+    return EXIT_DONE;
+}
+
+/* Pixels are whole numbers; shares of the picture all have a decimal point. */
+static int store_crop(const option_row *row, const char *text, crop_window *field)
+{
+    const char *const expected =
+        "four numbers X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1: whole ones, or "
+        "from 0.0 to 1.0, all with a point";
+    crop_window crop = {.is_given = true, .is_in_shares = strchr(text, '.') != NULL};
+    size_t points = 0, count = 0;
+    for (const char *letter = text; *letter; letter++)
+        points += *letter == '.';
+    const bool is_uniform =
+        crop.is_in_shares ? points == 4 : text[strspn(text, "0123456789,")] == '\0';
+    if (!is_uniform || !value_parse_reals(text, 4, crop.sides, &count) || count != 4)
+        return complain(row, text, expected);
+    const double *const sides = crop.sides, most = crop.is_in_shares ? 1.0 : 65536.0;
+    if (sides[0] < 0.0 || sides[1] < 0.0 || sides[2] > most || sides[3] > most ||
+        sides[0] >= sides[2] || sides[1] >= sides[3]) {
+        return complain(row, text, expected);
+    }
+    *field = crop;
+    return EXIT_DONE;
+}
+
+static int store_filter(const option_row *row, const char *text, filter_choice *field)
+{
+    filter_choice filter = {0};
+    const size_t length = strcspn(text, ",");
+    const int status = store_name(row, text, length, &filter.kind);
+    if (status != EXIT_DONE) return status;
+    if (text[length] == ',') {
+        const bool is_number = value_parse_real(text + length + 1, &filter.width);
+        if (!is_number || filter.width < row->low || filter.width > row->high) {
+            return complain(row, text, "a filter with a width from 0.001 to 100 pixels");
+        }
+    }
+    *field = filter;
+    return EXIT_DONE;
 }
 
 /* outputs has room for one entry per word of argv, so appending never allocates. */
@@ -414,7 +492,13 @@ static int store(const option_row *row, const char *text, cli_options *options)
     case VALUE_BACKGROUND:
         return store_background(row, text, field);
     case VALUE_CHOICE:
-        return store_choice(row, text, field);
+        return store_name(row, text, strlen(text), field);
+    case VALUE_SHUTTER:
+        return store_shutter(row, text, field);
+    case VALUE_CROP:
+        return store_crop(row, text, field);
+    case VALUE_FILTER:
+        return store_filter(row, text, field);
     }
     return EXIT_USAGE;
 }

@@ -2,6 +2,7 @@
 #ifndef PPM_CLI_OPTIONS_H
 #define PPM_CLI_OPTIONS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -31,6 +32,20 @@ typedef struct sun_choice {
     double elevation_deg, azimuth_deg;
     double turbidity; /* 0: not said */
 } sun_choice;
+/* A part of the picture: x0, y0, x1, y1, in pixels, or in shares of the picture's sides. */
+typedef struct crop_window {
+    bool is_given, is_in_shares;
+    double sides[4];
+} crop_window;
+
+typedef struct shutter_times {
+    double open, close; /* frames */
+} shutter_times;
+
+typedef struct filter_choice {
+    int32_t kind; /* PPM_PIXEL_FILTER_ */
+    double width; /* pixels; 0: not said */
+} filter_choice;
 
 /* 0 or NULL: not given, unless a comment says otherwise. Strings belong to argv. */
 typedef struct cli_options {
@@ -59,6 +74,12 @@ typedef struct cli_options {
     uint64_t threads;
 
     const char *camera;
+    double aperture;   /* f-number */
+    const char *focus; /* metres, or the name of a node */
+    shutter_times shutter;
+    crop_window crop;
+    filter_choice filter;
+
     const char *environment;
     double environment_rotation_deg;
     double environment_intensity;

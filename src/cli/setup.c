@@ -1,11 +1,13 @@
 /* The library's own checks come last: what only the scene can tell, such as a camera's name. */
 #include "setup.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggest.h"
+#include "focus.h"
 #include "values.h"
 
 static float radians(double degrees)
@@ -130,7 +132,69 @@ static int find_camera(cli_console *console, const ppm_scene *scene, const char 
     return EXIT_DONE;
 }
 
-int setup_render_options(cli_console *console, const ppm_scene *scene, const cli_options *options,
+/* Distances are from a camera: one that the library would add as the render begins is needed now.
+ */
+static int add_missing_camera(cli_console *console, ppm_scene *scene,
+                              const ppm_render_options *render_options)
+{
+    if (ppm_scene_camera_count(scene) > 0) return EXIT_DONE;
+    ppm_scene_info info = {.size = sizeof info};
+    if (ppm_scene_get_info(scene, &info) != PPM_STATUS_OK) return EXIT_INPUT;
+    const float width = (float)render_options->width, height = (float)render_options->height;
+    const float aspect = width > 0.0f && height > 0.0f ? width / height : 16.0f / 9.0f;
+    ppm_camera_id id = 0;
+    const ppm_status status = ppm_scene_add_framing_camera(scene, aspect, &id);
+    if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_INPUT);
+    console_message(console, PPM_LOG_INFO,
+                    "no camera in the scene: the model is framed from a three-quarter view");
+    return EXIT_DONE;
+}
+
+static int set_focus(cli_console *console, ppm_scene *scene, const char *focus,
+                     ppm_render_options *render_options)
+{
+    if (focus_is_node(scene, focus)) {
+        const int result = add_missing_camera(console, scene, render_options);
+        if (result != EXIT_DONE) return result;
+    }
+    const ppm_camera_id camera = render_options->camera ? render_options->camera : 1;
+    return focus_find(console, scene, camera, focus, &render_options->focus_distance_m);
+}
+
+/* Shares are rounded to whole pixels, so that parts which meet in shares meet in pixels. */
+static int set_crop(const ppm_scene *scene, const crop_window *crop,
+                    ppm_render_options *render_options)
+{
+    double sides[4] = {1.0, 1.0, 1.0, 1.0};
+    if (crop->is_in_shares) {
+        ppm_render_options resolved;
+        const ppm_status status = ppm_render_options_resolve(scene, render_options, &resolved);
+        if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_USAGE);
+        for (int i = 0; i < 4; i++)
+            sides[i] = i % 2 == 0 ? resolved.width : resolved.height;
+    }
+    for (int i = 0; i < 4; i++)
+        render_options->crop[i] = (uint32_t)lround(crop->sides[i] * sides[i]);
+    return EXIT_DONE;
+}
+
+static int set_camera(cli_console *console, ppm_scene *scene, const cli_options *options,
+                      ppm_render_options *render_options)
+{
+    int result = EXIT_DONE;
+    if (options->camera) {
+        result = find_camera(console, scene, options->camera, &render_options->camera);
+    }
+    if (result == EXIT_DONE && options->focus) {
+        result = set_focus(console, scene, options->focus, render_options);
+    }
+    if (result == EXIT_DONE && options->crop.is_given) {
+        result = set_crop(scene, &options->crop, render_options);
+    }
+    return result;
+}
+
+int setup_render_options(cli_console *console, ppm_scene *scene, const cli_options *options,
                          ppm_render_options *out_render_options)
 {
     *out_render_options = (ppm_render_options){
@@ -148,7 +212,11 @@ int setup_render_options(cli_console *console, const ppm_scene *scene, const cli
         .alpha = (float)options->alpha,
         .seed = options->seed,
         .threads = (uint32_t)options->threads,
+        .aperture_f_number = (float)options->aperture,
+        .shutter_open = (float)options->shutter.open,
+        .shutter_close = (float)options->shutter.close,
+        .pixel_filter = options->filter.kind,
+        .pixel_filter_width = (float)options->filter.width,
     };
-    if (!options->camera) return EXIT_DONE;
-    return find_camera(console, scene, options->camera, &out_render_options->camera);
+    return set_camera(console, scene, options, out_render_options);
 }

@@ -10,9 +10,9 @@
  * exit status; the library has said what is wrong. */
 int setup_scene(ppm_scene *scene, const cli_options *options);
 
-/* Fills in the settings, with the camera looked up. Returns EXIT_DONE, EXIT_USAGE (no such camera)
- * or EXIT_RESOURCES. */
-int setup_render_options(cli_console *console, const ppm_scene *scene, const cli_options *options,
+/* Fills in the settings, with camera and focus looked up. A scene without a camera gets one if
+ * something in it is to be in focus. Returns an exit status; what is wrong has been said. */
+int setup_render_options(cli_console *console, ppm_scene *scene, const cli_options *options,
                          ppm_render_options *out_render_options);
 
 #endif

@@ -142,13 +142,23 @@ static const char *integrator_name(int32_t integrator)
     return integrator == PPM_INTEGRATOR_PPM ? "ppm" : "sppm";
 }
 
+static json_t *crop_json(const uint32_t crop[4])
+{
+    return json_pack("[o, o, o, o]", count_json(crop[0]), count_json(crop[1]), count_json(crop[2]),
+                     count_json(crop[3]));
+}
+
 /* The three parts keep each json_pack readable: settings, counts, times. */
 static json_t *settings_json(const ppm_render_options *options)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:f, s:o}",                     //
+    const uint32_t *const crop = options->crop;
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:o}",      //
                      "integrator", integrator_name(options->integrator),        //
-                     "width", count_json(options->width),                       //
-                     "height", count_json(options->height),                     //
+                     "width", count_json(crop[2] - crop[0]),                    //
+                     "height", count_json(crop[3] - crop[1]),                   //
+                     "full_width", count_json(options->width),                  //
+                     "full_height", count_json(options->height),                //
+                     "crop", crop_json(crop),                                   //
                      "photons_per_pass", count_json(options->photons_per_pass), //
                      "max_depth", count_json(options->max_depth),               //
                      "alpha", (double)options->alpha,                           //

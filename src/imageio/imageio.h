@@ -51,6 +51,10 @@ enum { PPMI_STORE_U8, PPMI_STORE_U16, PPMI_STORE_HALF, PPMI_STORE_FLOAT };
 
 typedef struct ppmi_image_file {
     uint32_t width, height, channels;
+    /* The picture that the pixels are a part of, and where they stand in it: OpenEXR's display
+     * window, and the corner of its data window. The other formats hold the part alone. full_width
+     * 0: the pixels are all there is. */
+    uint32_t full_width, full_height, x, y;
     /* width * height * channels, row 0 on top. Alpha, the second or fourth channel, multiplies the
      * colours in OpenEXR, by its convention, and does not in the other formats. */
     const float *pixels;

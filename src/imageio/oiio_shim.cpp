@@ -198,6 +198,12 @@ static ImageSpec make_spec(const ppmi_image_file &file, const char *compression)
         for (uint32_t i = 0; i < file.channels; i++)
             spec.channelnames[i] = file.channel_names[i];
     }
+    if (file.full_width > 0) {
+        spec.x = (int)file.x;
+        spec.y = (int)file.y;
+        spec.full_width = (int)file.full_width;
+        spec.full_height = (int)file.full_height;
+    }
     if (compression) spec.attribute("compression", compression);
     if (!spec.format.is_floating_point()) spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("jpeg:subsampling", "4:4:4");

@@ -12,6 +12,9 @@ enum { CHUNK = 512 };
 /* Emission and the first bounce are stratified. */
 enum { STRATIFIED_SETS = 2 };
 
+/* Of sobol1, beside that of the choice of light. */
+enum { TIME_SET = 1 };
+
 typedef struct ppmi_photon_chunk {
     uint32_t thread; /* that walked it */
     size_t begin[PPMI_PHOTON_KINDS], count[PPMI_PHOTON_KINDS];
@@ -96,6 +99,9 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
         const double pick = ppmi_sobol1((uint32_t)index, 0, seed);
         ppmi_walker_start(&walker, ppmi_rng_start(walk->seed, PPMI_STREAM_PHOTON, index), seed,
                           (uint32_t)index, 0, STRATIFIED_SETS);
+        if (walk->shutter_is_open) {
+            walker.time = (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
+        }
         float u[4];
         for (int k = 0; k < 4; k++)
             u[k] = ppmi_walker_float(&walker);

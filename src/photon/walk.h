@@ -15,6 +15,7 @@ typedef struct ppmi_photon_walk {
     uint32_t max_depth;
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
                              a light to light sampling, 0 keeps it */
+    bool shutter_is_open; /* each photon draws a time within it */
     uint32_t threads;
     const atomic_bool *cancel;
 } ppmi_photon_walk;

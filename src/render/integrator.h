@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "camera/camera.h"
+#include "camera/filter.h"
 #include "ppm/render.h"
 #include "transport/world.h"
 
@@ -26,6 +27,7 @@ typedef struct ppmi_job {
     const ppm_render_options *options; /* resolved */
     ppmi_world world;
     ppmi_camera_view view; /* of the whole picture */
+    ppmi_pixel_filter filter;
     ppmi_film film;
     const atomic_bool *cancel;
 } ppmi_job;
@@ -68,9 +70,16 @@ static inline ppmi_tile ppmi_tile_at(const ppmi_film *film, uint32_t index)
                        y1 < film->height ? y1 : film->height};
 }
 
-/* Starts the camera path of a pixel in a pass: the walker's numbers and a ray through a random
- * point of the pixel. The paths of one pixel stratify each other over the passes. */
+/* Starts the camera path of a pixel in a pass: the walker's numbers and a ray through a point that
+ * is drawn from the pixel's filter, a point of the lens, and a time within the shutter. The paths
+ * of one pixel stratify each other over the passes. */
 ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
                                        uint32_t y, uint64_t pass);
+
+/* What is in the middle of the whole picture: distance along the camera's axis to the first surface
+ * that the camera sees there, at least half opaque. False when there is none. view is that of the
+ * pinhole. */
+bool ppmi_distance_in_the_middle(const ppmi_world *world, const ppmi_camera_view *view,
+                                 float *out_distance_m);
 
 #endif

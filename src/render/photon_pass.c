@@ -69,6 +69,7 @@ ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, 
         .count = (uint32_t)per_pass,
         .max_depth = job->options->max_depth,
         .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
+        .shutter_is_open = job->options->shutter_close > job->options->shutter_open,
         .threads = job->options->threads,
         .cancel = job->cancel,
     };

@@ -61,6 +61,70 @@ static ppm_status resolve_crop(const ppm_scene *scene, ppm_render_options *optio
     return PPM_STATUS_OK;
 }
 
+/* A number of the lens or shutter, from least to most. */
+static ppm_status check_range(const ppm_scene *scene, const char *name, float value, float least,
+                              float most)
+{
+    if (value >= least && value <= most) return PPM_STATUS_OK;
+    return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT, "%s %g: expected %g to %g", name,
+                     (double)value, (double)least, (double)most);
+}
+
+/* What the options do not say is the camera's. An aperture without a distance stays so: the session
+ * focuses on what is in the middle of the picture. */
+static ppm_status resolve_lens(const ppm_scene *scene, ppm_render_options *options)
+{
+    const ppmi_camera none = {0};
+    const ppmi_camera *camera = options->camera > 0 ? &scene->cameras[options->camera - 1] : &none;
+    if (options->aperture_f_number == 0.0f) options->aperture_f_number = camera->f_number;
+    if (options->focus_distance_m == 0.0f) options->focus_distance_m = camera->focus_distance_m;
+    if (options->aperture_f_number == 0.0f || camera->kind == PPM_CAMERA_ORTHOGRAPHIC) {
+        options->aperture_f_number = INFINITY;
+    }
+    ppm_status status = check_range(scene, "f-number", options->aperture_f_number, 1e-3f, INFINITY);
+    if (status == PPM_STATUS_OK && options->focus_distance_m != 0.0f) {
+        status = check_range(scene, "focus distance", options->focus_distance_m, 1e-6f, 1e18f);
+    }
+    return status;
+}
+
+static ppm_status check_shutter(const ppm_scene *scene, const ppm_render_options *options)
+{
+    const float most = 1e6f;
+    ppm_status status = check_range(scene, "shutter: open", options->shutter_open, -most, most);
+    if (status == PPM_STATUS_OK) { /* it must not close before it opens */
+        status = check_range(scene, "shutter: close", options->shutter_close, options->shutter_open,
+                             most);
+    }
+    return status;
+}
+
+static ppm_status resolve_filter(const ppm_scene *scene, ppm_render_options *options)
+{
+    if (options->pixel_filter < PPM_PIXEL_FILTER_DEFAULT ||
+        options->pixel_filter > PPM_PIXEL_FILTER_BLACKMAN_HARRIS) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "no pixel filter of number %d", (int)options->pixel_filter);
+    }
+    if (options->pixel_filter == PPM_PIXEL_FILTER_DEFAULT) {
+        options->pixel_filter = PPM_PIXEL_FILTER_BLACKMAN_HARRIS;
+    }
+    if (options->pixel_filter_width == 0.0f) {
+        options->pixel_filter_width = ppmi_pixel_filter_default_width(options->pixel_filter);
+    }
+    return check_range(scene, "pixel filter width", options->pixel_filter_width, 1e-3f, 100.0f);
+}
+
+static ppm_status resolve_camera(const ppm_scene *scene, ppm_render_options *options)
+{
+    resolve_size(scene, options);
+    ppm_status status = resolve_crop(scene, options);
+    if (status == PPM_STATUS_OK) status = resolve_lens(scene, options);
+    if (status == PPM_STATUS_OK) status = check_shutter(scene, options);
+    if (status == PPM_STATUS_OK) status = resolve_filter(scene, options);
+    return status;
+}
+
 static ppm_status check_options(const ppm_scene *scene, const ppm_render_options *options)
 {
     ppm_context *context = scene->context;
@@ -123,8 +187,7 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     if (status != PPM_STATUS_OK) return status;
     if (resolved.integrator == PPM_INTEGRATOR_DEFAULT) resolved.integrator = PPM_INTEGRATOR_SPPM;
     if (resolved.camera == 0 && scene->camera_count > 0) resolved.camera = 1;
-    resolve_size(scene, &resolved);
-    status = resolve_crop(scene, &resolved);
+    status = resolve_camera(scene, &resolved);
     if (status != PPM_STATUS_OK) return status;
     if (resolved.photons_per_pass == 0) {
         const uint64_t pixels = (uint64_t)resolved.width * resolved.height;
@@ -205,10 +268,34 @@ static const ppmi_integrator *integrator_of(int32_t number)
     }
 }
 
+/* The view with its lens; fills in the distance that is in focus where nobody said it. */
+static ppm_status set_up_camera(ppm_render *render)
+{
+    ppm_render_options *options = &render->options;
+    ppmi_camera_view *view = &render->job.view;
+    ppmi_camera_view_init(&render->scene->cameras[options->camera - 1], options->width,
+                          options->height, view);
+    ppmi_pixel_filter_init(&render->job.filter, options->pixel_filter, options->pixel_filter_width);
+    if (isinf(options->aperture_f_number)) return PPM_STATUS_OK;
+    if (options->focus_distance_m == 0.0f) {
+        if (!ppmi_distance_in_the_middle(&render->job.world, view, &options->focus_distance_m)) {
+            return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
+                             "aperture f/%g without a focus distance: there is nothing in the "
+                             "middle of the picture to focus on",
+                             (double)options->aperture_f_number);
+        }
+        ppmi_log(render->context, PPM_LOG_INFO,
+                 "focused on what is in the middle of the picture, at %.4g m",
+                 (double)options->focus_distance_m);
+    }
+    ppmi_camera_view_set_lens(view, options->aperture_f_number, options->focus_distance_m);
+    return PPM_STATUS_OK;
+}
+
 static ppm_status start(ppm_render *render)
 {
     const double begin = omp_get_wtime();
-    const ppm_status status = build_world(render);
+    ppm_status status = build_world(render);
     if (status != PPM_STATUS_OK) return status;
     render->job = (ppmi_job){
         .context = render->context,
@@ -219,13 +306,28 @@ static ppm_status start(ppm_render *render)
                     render->albedo, render->spectrum, render->contacts);
     const uint32_t *crop = render->options.crop;
     render->job.film = (ppmi_film){crop[0], crop[1], crop[2] - crop[0], crop[3] - crop[1]};
-    ppmi_camera_view_init(&render->scene->cameras[render->options.camera - 1],
-                          render->options.width, render->options.height, &render->job.view);
+    status = set_up_camera(render);
+    if (status != PPM_STATUS_OK) return status;
     render->integrator = integrator_of(render->options.integrator);
     render->stats.size = sizeof render->stats;
     render->stats.threads = render->options.threads;
     render->stats.seconds_build = omp_get_wtime() - begin;
     return render->integrator->create(&render->job, &render->state);
+}
+
+static void warn_about_the_lens(const ppm_scene *scene, const ppm_render_options *asked,
+                                const ppm_render_options *resolved)
+{
+    if (!asked || !isinf(resolved->aperture_f_number)) return;
+    const ppmi_camera *camera = &scene->cameras[resolved->camera - 1];
+    if (asked->aperture_f_number > 0.0f && !isinf(asked->aperture_f_number)) {
+        ppmi_log(scene->context, PPM_LOG_WARNING,
+                 "camera '%s' is orthographic: the aperture is ignored, all is in focus",
+                 camera->name);
+    } else if (asked->focus_distance_m > 0.0f) {
+        ppmi_log(scene->context, PPM_LOG_WARNING,
+                 "a focus distance without an aperture changes nothing: all is in focus");
+    }
 }
 
 ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
@@ -247,6 +349,7 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     render->context = scene->context;
     render->scene = scene;
     render->options = resolved;
+    warn_about_the_lens(scene, options, &resolved);
     ppmi_scene_freeze(scene);
     status = start(render);
     if (status != PPM_STATUS_OK) {

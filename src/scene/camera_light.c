@@ -87,6 +87,22 @@ float ppm_scene_camera_aspect(const ppm_scene *scene, ppm_camera_id id)
     return scene->cameras[id - 1].aspect;
 }
 
+ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
+                                      float out_transform[16])
+{
+    if (!scene || id == 0 || id > scene->camera_count || !out_transform) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    const ppmi_camera *camera = &scene->cameras[id - 1];
+    const ppmi_vec3 columns[4] = {camera->right, camera->up, vec3_neg(camera->forward),
+                                  vec3_add(camera->origin, scene->shift)};
+    for (int i = 0; i < 4; i++) {
+        vec3_store(out_transform + 4 * i, columns[i]);
+        out_transform[4 * i + 3] = i == 3 ? 1.0f : 0.0f;
+    }
+    return PPM_STATUS_OK;
+}
+
 /* Distance from which a box, seen along -back, just fits into the view. */
 static float framing_distance(ppmi_vec3 half, ppmi_vec3 right, ppmi_vec3 up, ppmi_vec3 back,
                               float tan_x, float tan_y)

@@ -332,6 +332,33 @@ static void grow_bounds(const ppmi_mesh *mesh, const ppmi_transform *to_world, p
     }
 }
 
+uint32_t ppm_scene_instance_count(const ppm_scene *scene)
+{
+    return scene ? scene->instance_count : 0;
+}
+
+const char *ppm_scene_instance_name(const ppm_scene *scene, ppm_instance_id id)
+{
+    if (!scene || id == 0 || id > scene->instance_count) return NULL;
+    return scene->instances[id - 1].name;
+}
+
+ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id, float out_min[3],
+                                     float out_max[3])
+{
+    if (!scene || id == 0 || id > scene->instance_count || !out_min || !out_max) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    const ppmi_instance *instance = &scene->instances[id - 1];
+    const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
+    if (mesh->bounds_min.x > mesh->bounds_max.x) return PPM_STATUS_INVALID_ARGUMENT;
+    ppmi_vec3 low = vec3_splat(INFINITY), high = vec3_splat(-INFINITY);
+    grow_bounds(mesh, &instance->to_world, &low, &high);
+    vec3_store(out_min, vec3_add(low, scene->shift));
+    vec3_store(out_max, vec3_add(high, scene->shift));
+    return PPM_STATUS_OK;
+}
+
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
 {
     *out_min = vec3_splat(INFINITY);

@@ -94,6 +94,83 @@ static void orthographic_rays_are_parallel(void **state)
     assert_near(corner.spread, 0.0, 0.0);
 }
 
+/* ---- the lens -------------------------------------------------------------------------------- */
+
+static ppmi_camera_view lens_view(uint32_t width, uint32_t height, float f_number, float focus)
+{
+    const ppm_camera_id id =
+        camera_perspective(test.scene, vec3(1, 2, 3), vec3(2, -1, 0), 2.0f * atanf(0.5f));
+    ppmi_camera_view view = view_of(id, width, height);
+    ppmi_camera_view_set_lens(&view, f_number, focus);
+    return view;
+}
+
+/* Where a ray is at a distance along the axis. */
+static ppmi_vec3 at_depth(const ppmi_camera_view *view, const ppmi_ray *ray, float depth)
+{
+    const float t = depth / vec3_dot(ray->direction, view->forward);
+    return vec3_mad(ray->origin, ray->direction, t);
+}
+
+/* A vertical angle of 2 atan(1/2) on a sensor 36 mm wide and 18 mm high is a lens of 18 mm; on one
+ * 18 mm wide and 36 mm high one of 36 mm. */
+static void the_longer_side_of_the_sensor_is_36_mm(void **state)
+{
+    (void)state;
+    const struct {
+        uint32_t width, height;
+        float focal_length_m;
+    } cases[] = {{200, 100, 0.018f}, {100, 200, 0.036f}, {100, 100, 0.036f}};
+    for (int i = 0; i < 3; i++) {
+        const ppmi_camera_view view = lens_view(cases[i].width, cases[i].height, 2.0f, 1.0f);
+        const float focal = ppmi_camera_view_focal_length(&view);
+        assert_near(focal, cases[i].focal_length_m, 1e-7);
+        const ppmi_camera_ray rim =
+            ppmi_camera_view_lens_ray(&view, 30, 20, (ppmi_vec2){0.6f, 0.8f});
+        assert_near(vec3_length(vec3_sub(rim.ray.origin, view.origin)), focal / 4.0f, 1e-6);
+        assert_near(vec3_dot(vec3_sub(rim.ray.origin, view.origin), view.forward), 0.0, 1e-6);
+    }
+}
+
+/* In front of the sharp plane and behind it, a place of the picture is a disk of radius
+ * R |z - d| / d: what similar triangles say. */
+static void rays_of_a_place_meet_in_the_plane_of_focus_and_nowhere_else(void **state)
+{
+    (void)state;
+    const float focus = 3.0f;
+    const ppmi_camera_view view = lens_view(200, 100, 0.1f, focus);
+    const float radius = ppmi_camera_view_focal_length(&view) / 0.2f;
+    const ppmi_vec2 places[] = {{100, 50}, {0, 0}, {170, 90}, {-3, 104}};
+    const ppmi_vec2 rim[] = {{1, 0}, {0, 1}, {-0.6f, 0.8f}, {0, -1}};
+    for (int p = 0; p < 4; p++) {
+        const ppmi_ray middle = ppmi_camera_view_ray(&view, places[p].x, places[p].y).ray;
+        for (int i = 0; i < 4; i++) {
+            const ppmi_ray ray =
+                ppmi_camera_view_lens_ray(&view, places[p].x, places[p].y, rim[i]).ray;
+            assert_near(vec3_length(ray.direction), 1.0, 1e-6);
+            for (float z = 0.0f; z < 10.0f; z += 1.0f) {
+                const ppmi_vec3 shift =
+                    vec3_sub(at_depth(&view, &ray, z), at_depth(&view, &middle, z));
+                assert_near(vec3_length(shift), radius * fabsf(z - focus) / focus, 1e-5);
+            }
+        }
+    }
+}
+
+static void nothing_but_a_perspective_camera_with_an_aperture_has_a_lens(void **state)
+{
+    (void)state;
+    const ppmi_camera_view pinhole = lens_view(200, 100, INFINITY, 1.0f);
+    assert_false(pinhole.has_lens);
+    const ppm_camera_id id = camera_orthographic(test.scene, vec3(0, 5, 0), vec3(0, 0, 0), 2.0f);
+    ppmi_camera_view parallel = view_of(id, 80, 80);
+    ppmi_camera_view_set_lens(&parallel, 1.0f, 1.0f);
+    assert_false(parallel.has_lens);
+    const ppmi_ray ray = ppmi_camera_view_lens_ray(&parallel, 40, 40, (ppmi_vec2){1, 0}).ray;
+    assert_direction(ray.direction, 0, -1, 0);
+    assert_near(ray.origin.x, 0.0, 1e-6);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -102,6 +179,9 @@ int main(void)
         WITH_SCENE(the_vertical_angle_does_not_depend_on_the_aspect),
         WITH_SCENE(the_cone_is_as_wide_as_a_pixel),
         WITH_SCENE(orthographic_rays_are_parallel),
+        WITH_SCENE(the_longer_side_of_the_sensor_is_36_mm),
+        WITH_SCENE(rays_of_a_place_meet_in_the_plane_of_focus_and_nowhere_else),
+        WITH_SCENE(nothing_but_a_perspective_camera_with_an_aperture_has_a_lens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

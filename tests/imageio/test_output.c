@@ -153,14 +153,94 @@ static void exr_header_tells_how_it_was_made(void **state)
     const ppm_output_options options = {.size = sizeof options, .command = "ppm-render scene.glb"};
     assert_int_equal(write_picture("a.exr", &options), PPM_STATUS_OK);
     static const char *const texts[] = {
-        "chromaticities", "ppm-render 0.",        "ppm:version", "ppm:options",    "width=6",
-        "height=4",       "photons_per_pass=100", "ppm:photons", "ppm:integrator", "sppm",
-        "ppm:seed",       "18446744073709551615", "ppm:command", "scene.glb",      "ppm:passes",
+        "chromaticities",
+        "ppm-render 0.",
+        "ppm:version",
+        "ppm:options",
+        "width=6",
+        "height=4",
+        "photons_per_pass=100",
+        "ppm:photons",
+        "ppm:integrator",
+        "sppm",
+        "ppm:seed",
+        "18446744073709551615",
+        "ppm:command",
+        "scene.glb",
+        "ppm:passes",
         "lin_rec709",
+        "crop=0,0,6,4",
+        "filter=blackman-harris,3",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         assert_file_contains("a.exr", texts[i]);
     }
+}
+
+/* What a session of its own with these options says in its header. */
+static void assert_header_contains(ppm_render_options options, const char *text)
+{
+    options.size = sizeof options;
+    options.width = options.height = 4;
+    options.integrator = PPM_INTEGRATOR_PATH;
+    ppm_render *other = NULL;
+    assert_int_equal(ppm_render_create(scene, &options, &other), PPM_STATUS_OK);
+    assert_int_equal(ppm_render_advance(other), PPM_STATUS_OK);
+    assert_int_equal(ppm_render_write(other, color, scratch_path("header.exr"), NULL),
+                     PPM_STATUS_OK);
+    assert_file_contains("header.exr", text);
+    ppm_render_destroy(other);
+}
+
+static void exr_header_tells_about_the_camera(void **state)
+{
+    (void)state;
+    assert_header_contains((ppm_render_options){.crop = {1, 0, 4, 2}}, "crop=1,0,4,2");
+    assert_header_contains((ppm_render_options){.pixel_filter = PPM_PIXEL_FILTER_BOX},
+                           "filter=box,1");
+    assert_header_contains(
+        (ppm_render_options){.pixel_filter = PPM_PIXEL_FILTER_GAUSSIAN, .pixel_filter_width = 2.5f},
+        "filter=gaussian,2.5");
+    assert_header_contains((ppm_render_options){.shutter_open = -0.5f, .shutter_close = 0.25f},
+                           "shutter=-0.5,0.25");
+    assert_header_contains(
+        (ppm_render_options){.aperture_f_number = 4.0f, .focus_distance_m = 2.0f},
+        "aperture=4 focus_m=2");
+}
+
+/* Read back, the rest of the picture is there and black. */
+static void a_crop_is_the_data_window_of_its_exr_and_all_of_its_png(void **state)
+{
+    (void)state;
+    const ppm_render_options options = {.size = sizeof options,
+                                        .width = WIDTH,
+                                        .height = HEIGHT,
+                                        .photons_per_pass = 10,
+                                        .crop = {1, 2, 4, 4}};
+    enum { PART = 3 * 2 };
+    float part[4 * PART];
+    ppm_render *other = NULL;
+    assert_int_equal(ppm_render_create(scene, &options, &other), PPM_STATUS_OK);
+    assert_int_equal(ppm_render_advance(other), PPM_STATUS_OK);
+    assert_int_equal(ppm_render_read_image(other, part, 4 * PART), PPM_STATUS_OK);
+    const char *const names[] = {"part.exr", "part.png", "part.jpg", "part.tif"};
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(ppm_render_write(other, color, scratch_path(names[i]), NULL),
+                         PPM_STATUS_OK);
+        ppmi_pixels pixels;
+        assert_int_equal(ppmi_imageio_read_file(context, scratch_path(names[i]), names[i], &pixels),
+                         PPM_STATUS_OK);
+        assert_int_equal(pixels.width, i == 0 ? WIDTH : 3);
+        assert_int_equal(pixels.height, i == 0 ? HEIGHT : 2);
+        for (uint32_t p = 0; i == 0 && p < WIDTH * HEIGHT; p++) {
+            const uint32_t x = p % WIDTH, y = p / WIDTH;
+            const bool is_in_part = x >= 1 && x < 4 && y >= 2;
+            const float expected = is_in_part ? part[4 * ((y - 2) * 3 + x - 1)] : 0.0f;
+            assert_true(pixels.f32[4 * p] >= expected && pixels.f32[4 * p] <= expected);
+        }
+        ppmi_imageio_pixels_free(context, &pixels);
+    }
+    ppm_render_destroy(other);
 }
 
 /* A file of code values against the view of the picture. */
@@ -255,10 +335,16 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
-        TEST(without_a_pass_there_is_no_file),   TEST(exr_holds_the_picture_as_it_is),
-        TEST(exr_of_half_depth_is_near),         TEST(exr_header_tells_how_it_was_made),
-        TEST(display_files_go_through_the_view), TEST(wrong_arguments_write_nothing),
-        TEST(a_path_can_be_checked_beforehand),  TEST(every_allocation_may_fail),
+        TEST(without_a_pass_there_is_no_file),
+        TEST(exr_holds_the_picture_as_it_is),
+        TEST(exr_of_half_depth_is_near),
+        TEST(exr_header_tells_how_it_was_made),
+        TEST(exr_header_tells_about_the_camera),
+        TEST(a_crop_is_the_data_window_of_its_exr_and_all_of_its_png),
+        TEST(display_files_go_through_the_view),
+        TEST(wrong_arguments_write_nothing),
+        TEST(a_path_can_be_checked_beforehand),
+        TEST(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

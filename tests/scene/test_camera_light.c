@@ -179,6 +179,22 @@ static void assert_framed(ppmi_vec3 low, ppmi_vec3 high, float aspect)
     scene_close(&test);
 }
 
+static void a_camera_tells_where_it_stands(void **state)
+{
+    (void)state;
+    float transform[16] = {0};
+    assert_int_equal(ppm_scene_camera_transform(test.scene, 1, transform),
+                     PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_camera_transform(NULL, 1, transform), PPM_STATUS_INVALID_ARGUMENT);
+    ppm_camera_id id;
+    assert_int_equal(ppm_scene_add_camera(test.scene, &good_camera, &id), PPM_STATUS_OK);
+    assert_int_equal(ppm_scene_camera_transform(test.scene, id, NULL), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_camera_transform(test.scene, id, transform), PPM_STATUS_OK);
+    const float expected[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}; /* no scale */
+    for (int i = 0; i < 16; i++)
+        assert_near(transform[i], expected[i], 1e-6);
+}
+
 static void the_framing_camera_sees_all_corners(void **state)
 {
     (void)state;
@@ -213,6 +229,7 @@ int main(void)
         WITH_SCENE(lights_out_of_range_are_refused),
         WITH_SCENE(the_size_of_a_directional_light_is_checked),
         WITH_SCENE(framing_needs_something_to_frame),
+        WITH_SCENE(a_camera_tells_where_it_stands),
         cmocka_unit_test(the_framing_camera_sees_all_corners),
         WITH_SCENE(the_framing_camera_looks_from_right_front_and_above),
     };

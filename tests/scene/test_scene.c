@@ -257,6 +257,39 @@ static void a_near_scene_stays_where_it_is(void **state)
     assert_near(vec3_length(test.scene->shift), 0.0, 0.0);
 }
 
+/* Also once it has been moved to the origin. */
+static void instances_tell_name_and_box(void **state)
+{
+    (void)state;
+    float low[3] = {7, 7, 7}, high[3];
+    const ppm_mesh_id box = shape_box(test.scene, 0, vec3_splat(-1), vec3_splat(1), 1, false);
+    const ppm_instance_desc named = {
+        .size = sizeof named,
+        .name = "Crate",
+        .mesh = box,
+        .transform = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4096, 0, 0, 1}};
+    ppm_instance_id id = 0;
+    assert_int_equal(ppm_scene_instance_count(test.scene), 0);
+    assert_int_equal(ppm_scene_add_instance(test.scene, &named, &id), PPM_STATUS_OK);
+    shape_place_at(test.scene, box, vec3(4096, 5, 0));
+    assert_int_equal(ppm_scene_instance_count(test.scene), 2);
+    for (int i = 0; i < 2; i++) {
+        assert_string_equal(ppm_scene_instance_name(test.scene, id), "Crate");
+        assert_string_equal(ppm_scene_instance_name(test.scene, 2), "shape");
+        assert_null(ppm_scene_instance_name(test.scene, 0));
+        assert_null(ppm_scene_instance_name(test.scene, 3));
+        assert_int_equal(ppm_scene_instance_bounds(test.scene, 3, low, high),
+                         PPM_STATUS_INVALID_ARGUMENT);
+        assert_int_equal(ppm_scene_instance_bounds(test.scene, id, low, high), PPM_STATUS_OK);
+        assert_near(low[0], 4094.0, 0.0);
+        assert_near(high[0], 4098.0, 0.0);
+        assert_near(low[1], -1.0, 0.0);
+        assert_near(high[2], 1.0, 0.0);
+        ppmi_scene_freeze(test.scene);
+    }
+    assert_true(vec3_length(test.scene->shift) > 1000.0f);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -271,6 +304,7 @@ int main(void)
         WITH_SCENE(bounds_of_turned_and_mirrored_instances_are_tight),
         WITH_SCENE(a_far_scene_is_moved_to_the_origin_as_a_whole),
         WITH_SCENE(a_near_scene_stays_where_it_is),
+        WITH_SCENE(instances_tell_name_and_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,7 @@ ppm_render_options render_options(int32_t integrator, uint32_t width, uint64_t p
                                 .width = width,
                                 .height = width,
                                 .photons_per_pass = photons_per_pass,
+                                .pixel_filter = PPM_PIXEL_FILTER_BOX,
                                 .threads = 1};
 }
 
@@ -25,7 +26,8 @@ float *render_picture(ppm_scene *scene, const ppm_render_options *options, uint3
         assert_int_equal(ppm_render_advance(render), PPM_STATUS_OK);
     }
     const ppm_render_options *resolved = ppm_render_get_options(render);
-    const size_t count = 4 * (size_t)resolved->width * resolved->height;
+    const uint32_t *crop = resolved->crop;
+    const size_t count = 4 * (size_t)(crop[2] - crop[0]) * (crop[3] - crop[1]);
     float *rgba = malloc(count * sizeof *rgba);
     assert_non_null(rgba);
     assert_int_equal(ppm_render_read_image(render, rgba, count), PPM_STATUS_OK);

@@ -5,11 +5,11 @@
 #include "ppm/render.h"
 #include "support/statistics.h"
 
-/* The options that most tests want: a small square picture, one thread (short passes gain nothing
- * by more). */
+/* The options that most tests want: a small square picture whose pixels are means over their areas
+ * (the box filter), one thread (short passes gain nothing by more). */
 ppm_render_options render_options(int32_t integrator, uint32_t width, uint64_t photons_per_pass);
 
-/* A finished picture: 4 * width * height floats, to be freed by free(). */
+/* A finished picture: 4 * width * height floats (of the crop), to be freed by free(). */
 float *render_picture(ppm_scene *scene, const ppm_render_options *options, uint32_t passes);
 
 /* The mean of one value a seed (seed_count seeds, from 1; fewer where the build is slow): what
