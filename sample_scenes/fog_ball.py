@@ -1,10 +1,10 @@
-"""A glass ball in fog: a spot lamp from the left lights it, and behind it the light runs together in
-a caustic cone, crosses, and spreads again. Seen from the side, for rendering with --fog.
+"""A glass ball in fog: a spot lamp from the left lights it, and behind it the light runs together
+in a caustic cone, crosses, and spreads again. Seen from the side, for rendering with --fog.
 
     blender --background --factory-startup --threads 1 --python sample_scenes/fog_ball.py
 
-writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `ppm-render --fog 0.1,0`
-adds it. `-- --reference OUT.exr SAMPLES` renders a reference by Cycles, without fog too.
+writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `--fog 0.1,0` adds
+it. `-- --reference OUT.exr SAMPLES` renders a reference by Cycles, without fog too.
 
 The ball's focal length from its middle is R n / (2 (n - 1)), 1.5 R for n = 1.5. With the lamp 3 m
 away the middle rays meet 1 m behind the middle of a ball of 0.5 m, and the outer ones before.
