@@ -59,7 +59,7 @@ def add_lamp():
     kit.add_tube("Post", [(LAMP_X, 0, 0.0005), (LAMP_X, 0, HEIGHT - outer - 0.001)], 0.03, steel)
     # the cone is a little wider than the ball, so that its edge is seen in the fog
     half = math.degrees(math.asin(RADIUS / -LAMP_X)) + 0.8
-    kit.add_spot("Beam", (LAMP_X, 0, HEIGHT), (0, 0, HEIGHT), 2600.0, 2.0 * half, 0.05,
+    kit.add_spot("Beam", (LAMP_X, 0, HEIGHT), (0, 0, HEIGHT), 3600.0, 2.0 * half, 0.05,
                  (1.0, 0.96, 0.90))
 
 
