@@ -82,7 +82,8 @@ def add_books():
     covers = ((0.42, 0.05, 0.04), (0.05, 0.12, 0.22), (0.50, 0.34, 0.08))
     paper = kit.lambert("Paper", (0.74, 0.70, 0.60))
     height = 0.0005
-    for i, (cover, turn, thick) in enumerate(zip(covers, (-12.0, 7.0, -4.0), (0.034, 0.026, 0.03))):
+    turns, thicknesses = (-12.0, 7.0, -4.0), (0.034, 0.026, 0.03)
+    for i, (cover, turn, thick) in enumerate(zip(covers, turns, thicknesses)):
         half_x, half_y = 0.115 - 0.012 * i, 0.08 - 0.006 * i
         cloth = kit.principled(f"Cover {i + 1}", cover, Roughness=0.6)
         x, y, board = 0.165, 0.14, 0.003
@@ -106,10 +107,10 @@ def main():
                (0.0, 0.042)]
     kit.add_lathe("Apple", profile, apple, (0.15, 0.13, top - 0.0092), segments=48)
     mug = kit.ceramic("Mug", (0.60, 0.62, 0.60), 0.05)
-    outside = [(0.0, 0.001), (0.033, 0.0005), (0.039, 0.005), *kit.line((0.039, 0.005), (0.041, 0.094), 5),
-               (0.041, 0.094), (0.0395, 0.096), (0.038, 0.094), *kit.line((0.038, 0.094), (0.036, 0.012), 5),
-               (0.034, 0.007), (0.0, 0.006)]
-    kit.add_lathe("Mug", outside, mug, (0.03, -0.045, 0.0), segments=48)
+    outside = [(0.0, 0.001), (0.033, 0.0005), (0.039, 0.005)]
+    outside += [*kit.line((0.039, 0.005), (0.041, 0.094), 5), (0.041, 0.094), (0.0395, 0.096)]
+    inside = [(0.038, 0.094), *kit.line((0.038, 0.094), (0.036, 0.012), 5), (0.034, 0.007)]
+    kit.add_lathe("Mug", [*outside, *inside, (0.0, 0.006)], mug, (0.03, -0.045, 0.0), segments=48)
     kit.add_camera((0.36, -0.92, 0.44), (0.02, 0.08, 0.185), 39.0)
     kit.finish(__file__)
 

@@ -1,10 +1,10 @@
-"""A glass ball in fog: a spot lamp from the left lights it, and behind it the light runs together in
-a caustic cone, crosses, and spreads again. Seen from the side, for rendering with --fog.
+"""A glass ball in fog: a spot lamp from the left lights it, and behind it the light runs together
+in a caustic cone, crosses, and spreads again. Seen from the side, for rendering with --fog.
 
     blender --background --factory-startup --threads 1 --python sample_scenes/fog_ball.py
 
-writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `ppm-render --fog 0.1,0`
-adds it. `-- --reference OUT.exr SAMPLES` renders a reference by Cycles, without fog too.
+writes fog_ball.glb beside this script. glTF has no fog, so the file has none: `--fog 0.1,0` adds
+it. `-- --reference OUT.exr SAMPLES` renders a reference by Cycles, without fog too.
 
 The ball's focal length from its middle is R n / (2 (n - 1)), 1.5 R for n = 1.5. With the lamp 3 m
 away the middle rays meet 1 m behind the middle of a ball of 0.5 m, and the outer ones before.
@@ -59,7 +59,7 @@ def add_lamp():
     kit.add_tube("Post", [(LAMP_X, 0, 0.0005), (LAMP_X, 0, HEIGHT - outer - 0.001)], 0.03, steel)
     # the cone is a little wider than the ball, so that its edge is seen in the fog
     half = math.degrees(math.asin(RADIUS / -LAMP_X)) + 0.8
-    kit.add_spot("Beam", (LAMP_X, 0, HEIGHT), (0, 0, HEIGHT), 2600.0, 2.0 * half, 0.05,
+    kit.add_spot("Beam", (LAMP_X, 0, HEIGHT), (0, 0, HEIGHT), 3600.0, 2.0 * half, 0.05,
                  (1.0, 0.96, 0.90))
 
 

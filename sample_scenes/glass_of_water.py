@@ -62,7 +62,8 @@ def add_water(location):
     surface = []
     for step in range(8):
         inwards = 0.0008 * step**1.4
-        surface.append((inner_radius(LEVEL) - inwards, LEVEL + 0.0015 * math.exp(-inwards / 0.0025)))
+        height = LEVEL + 0.0015 * math.exp(-inwards / 0.0025)
+        surface.append((inner_radius(LEVEL) - inwards, height))
     middle = (0.0, LEVEL)
     profile = [*side, rim, *surface, *kit.line(surface[-1], middle, 4), middle]
     kit.add_lathe("Water", profile, water, location, segments=72)
@@ -113,7 +114,8 @@ def main():
     kit.add_sphere("Lemon", (-0.105, 0.10, 0.032), 0.0315, lemon, 48, 24)
     panel = kit.emitter("Panel", (0.82, 0.92, 1.0), 2.2)
     kit.add_quad("Panel", (0.55, -0.45, 0.05), (0, 0, 0.7), (0, 0.8, 0), panel)
-    kit.add_spot("Spot", (-0.24, 0.36, 0.36), (0.01, 0.0, 0.03), 14.0, 48.0, 0.4, (1.0, 0.94, 0.84))
+    lamp, target = (-0.24, 0.36, 0.36), (0.01, 0.0, 0.03)
+    kit.add_spot("Spot", lamp, target, 14.0, 48.0, 0.4, (1.0, 0.94, 0.84))
     kit.add_camera((0.06, -0.42, 0.235), (0.022, -0.02, 0.050), 31.0)
     kit.finish(__file__)
 

@@ -25,7 +25,8 @@ def add_tumbler(location, material):
     well = kit.arc((0.027, 0.020), 0.008, 0.0, -90.0, 6)
     profile = [middle, *kit.line(middle, foot[0], 4), *foot]
     profile += [*kit.line(foot[-1], rim[0], 8), *rim]
-    profile += [*kit.line(rim[-1], well[0], 8), *well, *kit.line(well[-1], (0.0, 0.012), 4), (0.0, 0.012)]
+    floor = (0.0, 0.012)
+    profile += [*kit.line(rim[-1], well[0], 8), *well, *kit.line(well[-1], floor, 4), floor]
     kit.add_lathe("Tumbler", profile, material, location, segments=96)
 
 

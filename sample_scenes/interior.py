@@ -78,8 +78,8 @@ def add_sofa(x, y):
         for depth in (0.08, 0.76):
             kit.add_cuboid("Foot", (x + side * 0.85 - 0.03, y - depth - 0.03, 0.0),
                            (x + side * 0.85 + 0.03, y - depth + 0.03, 0.119), feet)
-    for name, material, place, tip in (("Pillow", mustard, x - 0.50, -14.0), ("Pillow", rust, x + 0.50, 18.0)):
-        add_pillow(name, (place, y - 0.33, 0.66), material, tip)
+    for material, place, tip in ((mustard, x - 0.50, -14.0), (rust, x + 0.50, 18.0)):
+        add_pillow("Pillow", (place, y - 0.33, 0.66), material, tip)
 
 
 def add_pillow(name, location, material, turn_degrees):
@@ -115,8 +115,8 @@ def add_table(x, y):
     """A round low table with a bowl of oranges and two books."""
     walnut = kit.principled("Walnut", (0.20, 0.105, 0.055), Roughness=0.48)
     rim = kit.arc((0.435, 0.395), 0.0149, -90.0, 90.0, 6)
-    top = [(0.0, 0.3801), *kit.line((0.0, 0.38), rim[0], 3), *rim, *kit.line(rim[-1], (0.0, 0.41), 3),
-           (0.0, 0.4099)]
+    top = [(0.0, 0.3801), *kit.line((0.0, 0.38), rim[0], 3), *rim]
+    top += [*kit.line(rim[-1], (0.0, 0.41), 3), (0.0, 0.4099)]
     kit.add_lathe("Table top", top, walnut, (x, y, 0.0), segments=64)
     for i in range(3):
         turn = math.radians(40.0 + 120.0 * i)
@@ -128,12 +128,15 @@ def add_table(x, y):
     inside = [*kit.arc((0.0, 0.14), 0.132, -20.0, -80.0, 10), (0.0, 0.009)]
     kit.add_lathe("Bowl", outside + inside, clay, (x - 0.10, y + 0.08, 0.4105), segments=48)
     orange = kit.principled("Orange", (0.72, 0.26, 0.02), Roughness=0.5)
-    for dx, dy, dz in ((-0.045, 0.02, 0.052), (0.035, 0.045, 0.052), (0.01, -0.04, 0.052), (0.0, 0.012, 0.112)):
-        kit.add_sphere("Orange", (x - 0.10 + dx, y + 0.08 + dy, 0.4105 + dz), 0.038, orange, 32, 16)
+    piled = ((-0.045, 0.02, 0.052), (0.035, 0.045, 0.052), (0.01, -0.04, 0.052))
+    for dx, dy, dz in (*piled, (0.0, 0.012, 0.112)):
+        place = (x - 0.10 + dx, y + 0.08 + dy, 0.4105 + dz)
+        kit.add_sphere("Orange", place, 0.038, orange, 32, 16)
     for i, (color, turn) in enumerate((((0.10, 0.16, 0.13), 20.0), ((0.52, 0.50, 0.44), 34.0))):
         book = kit.principled(f"Book {i + 1}", color, Roughness=0.6)
         low = 0.4105 + 0.0285 * i
-        kit.add_cuboid("Book", (x + 0.08, y - 0.26, low), (x + 0.22, y - 0.06, low + 0.028), book, turn)
+        near, far = (x + 0.08, y - 0.26, low), (x + 0.22, y - 0.06, low + 0.028)
+        kit.add_cuboid("Book", near, far, book, turn)
 
 
 def add_lamp(x, y):
@@ -143,7 +146,8 @@ def add_lamp(x, y):
     stem = [(0.0, 0.0004), (0.14, 0.0004), (0.145, 0.008), (0.14, 0.018), (0.012, 0.024),
             (0.011, 0.05), (0.011, 1.52), (0.0, 1.525)]
     kit.add_lathe("Stem", stem, steel, (x, y, 0.0), segments=32)
-    shade = [(0.20, 1.30), (0.202, 1.302), (0.152, 1.648), (0.15, 1.65), (0.148, 1.648), (0.198, 1.302)]
+    shade = [(0.20, 1.30), (0.202, 1.302), (0.152, 1.648)]
+    shade += [(0.15, 1.65), (0.148, 1.648), (0.198, 1.302)]
     kit.add_lathe("Shade", shade, paper, (x, y, 0.0), segments=48, closed=True)
 
 
@@ -152,27 +156,31 @@ def add_pictures():
     mat = kit.lambert("Mat", (0.72, 0.70, 0.66))
     colors = ((0.55, 0.22, 0.10), (0.12, 0.26, 0.30))
     for i, (x, width, height) in enumerate(((-0.55, 0.50, 0.66), (0.15, 0.50, 0.66))):
-        z = 1.60
-        def panel(name, shrink, out, material):
-            kit.add_cuboid(name, (x - width / 2 + shrink, BACK - out, z - height / 2 + shrink),
-                           (x + width / 2 - shrink, BACK - 0.001, z + height / 2 - shrink), material)
-        panel("Frame", 0.0, 0.020, frame)
-        panel("Mat", 0.02, 0.022, mat)
-        panel("Picture", 0.10, 0.024, kit.lambert(f"Picture {i + 1}", colors[i]))
+        picture = kit.lambert(f"Picture {i + 1}", colors[i])
+        layers = (("Frame", 0.0, 0.020, frame), ("Mat", 0.02, 0.022, mat),
+                  ("Picture", 0.10, 0.024, picture))
+        for name, shrink, out, material in layers:
+            half_x, half_z = width / 2 - shrink, height / 2 - shrink
+            kit.add_cuboid(name, (x - half_x, BACK - out, 1.60 - half_z),
+                           (x + half_x, BACK - 0.001, 1.60 + half_z), material)
 
 
-def add_rest():
+def add_rug():
     rug = kit.lambert("Rug", (0.50, 0.46, 0.40))
     border = kit.lambert("Rug border", (0.30, 0.11, 0.08))
     kit.add_cuboid("Rug border", (-1.45, -1.05, 0.0005), (1.15, 0.85, 0.008), border)
     kit.add_cuboid("Rug", (-1.33, -0.93, 0.001), (1.03, 0.73, 0.010), rug)
-    # a shelf at the right wall, with boxes and a pot
+
+
+def add_shelf():
+    """At the right wall, with two rows of books."""
     wood = kit.principled("Shelf", (0.34, 0.22, 0.12), Roughness=0.5)
     for z in (0.05, 0.45, 0.85):
         kit.add_cuboid("Board", (RIGHT - 0.36, 0.2, z), (RIGHT - 0.016, 1.5, z + 0.03), wood)
     for y in (0.2, 1.47):
         kit.add_cuboid("Side", (RIGHT - 0.362, y, 0.0), (RIGHT - 0.0155, y + 0.03, 0.879), wood)
-    spines = ((0.42, 0.07, 0.05), (0.06, 0.14, 0.24), (0.52, 0.38, 0.10), (0.12, 0.22, 0.14), (0.5, 0.47, 0.4))
+    spines = ((0.42, 0.07, 0.05), (0.06, 0.14, 0.24), (0.52, 0.38, 0.10), (0.12, 0.22, 0.14),
+              (0.50, 0.47, 0.40))
     materials = [kit.principled(f"Spine {i + 1}", c, Roughness=0.6) for i, c in enumerate(spines)]
     for shelf, (start, count) in enumerate(((0.25, 16), (0.72, 12))):
         y = start
@@ -182,27 +190,30 @@ def add_rest():
             kit.add_cuboid("Book", (RIGHT - 0.33, y, low), (RIGHT - 0.12, y + wide, low + tall),
                            materials[(i * 3 + shelf) % len(materials)])
             y += wide + 0.001
+
+
+def add_plant(x, y, z):
+    """A pot with leaves on bent stalks, each turned from the last by the golden angle."""
     pot = kit.principled("Pot", (0.44, 0.20, 0.12), Roughness=0.6)
     profile = [(0.0, 0.0005), (0.07, 0.0005), (0.10, 0.16), (0.108, 0.165), (0.108, 0.185),
                (0.098, 0.185), (0.092, 0.16), (0.0, 0.16)]
-    kit.add_lathe("Pot", profile, pot, (RIGHT - 0.2, 0.6, 0.88), segments=48)
+    kit.add_lathe("Pot", profile, pot, (x, y, z), segments=48)
     leaf = kit.principled("Leaf", (0.06, 0.17, 0.05), Roughness=0.5)
     for i in range(14):
         turn, rise = math.radians(137.5 * i), 0.13 + 0.022 * i
         out = 0.24 - 0.011 * i
-        x, y = RIGHT - 0.2, 0.6
         points = []
         for step in range(7):
             t = step / 6
             r = out * t
             points.append((x + r * math.cos(turn) * 0.6, y + r * math.sin(turn),
-                           0.88 + 0.155 + rise * 1.6 * t - 0.22 * t * t))
+                           z + 0.155 + rise * 1.6 * t - 0.22 * t * t))
         kit.add_tube("Stalk", points, 0.0045, leaf, 8)
         add_leaf(points[-2], points[-1], leaf)
 
 
 def add_leaf(start, end, material):
-    """A flat ellipsoid at the end of a stalk."""
+    """A flat ellipsoid at the end of a stalk, tipped the way that it was heading."""
     leaf = kit.add_sphere("Leaf", end, 1.0, material, 16, 8)
     leaf.scale = (0.035, 0.006, 0.075)
     heading = [e - s for s, e in zip(start, end)]
@@ -218,7 +229,9 @@ def main():
     add_table(-0.15, 0.15)
     add_lamp(1.28, 1.82)
     add_pictures()
-    add_rest()
+    add_rug()
+    add_shelf()
+    add_plant(RIGHT - 0.2, 0.6, 0.88)
     kit.add_camera((0.75, -2.65, 1.45), (-0.30, 1.0, 0.85), 68.0)
     kit.finish(__file__)
 
