@@ -14,6 +14,10 @@ enum { ROULETTE_DEPTH = 6 };
 /* Each split leaves at most three branches for later: two of glass, one of a narrow lobe. */
 enum { MAX_BRANCHES = 3 * PPMI_MAX_SPLIT_DEPTH + 1 };
 
+/* Points in the first medium that a path crosses: light in fog is seen best as a sum over the way.
+ */
+enum { MEDIA_POINTS = 4 };
+
 /* Branches that carry less than this are drawn by chance again. */
 static const float least_split_throughput = 1e-3f;
 
@@ -254,14 +258,17 @@ static ppmi_arrival walk(eye_path *path, eye_branch *branch, ppmi_vertex *vertex
     if (!walker->world->has_scattering || branch->media_splits >= path->settings->media_depth) {
         return ppmi_walk(walker, branch->ray, kind, vertex);
     }
-    ppmi_vertex scattered;
+    ppmi_vertex scattered[MEDIA_POINTS];
+    const uint32_t count = branch->media_splits == 0 ? MEDIA_POINTS : 1;
     const ppmi_interior before = walker->interior;
-    const ppmi_arrival arrival = ppmi_walk_both_ways(walker, branch->ray, kind, vertex, &scattered);
-    if (!scattered.medium) return arrival;
-    branch->media_splits++;
+    const ppmi_arrival arrival =
+        ppmi_walk_both_ways(walker, branch->ray, kind, vertex, scattered, count);
     const ppmi_interior after = walker->interior;
     walker->interior = before;
-    scatter_on_the_way(path, branch, &scattered);
+    for (uint32_t i = 0; i < count; i++) {
+        if (scattered[i].medium) scatter_on_the_way(path, branch, &scattered[i]);
+    }
+    if (scattered[0].medium) branch->media_splits++;
     walker->interior = after;
     return arrival;
 }

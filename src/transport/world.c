@@ -61,30 +61,39 @@ static void scatter_at(ppmi_vertex *vertex, const ppmi_medium *medium, const ppm
     vertex->distance += t;
 }
 
-/* Keeps one of the vertices that a path's segments offer, by how much each scatters (reservoir
- * sampling): weights are divided by the chance of having been kept. */
+/* Of the vertices that a path's segments offer, each place keeps one, by how much the segments
+ * scatter (reservoir sampling): weights are divided by the chance of having been kept. */
 typedef struct scatter_choice {
-    ppmi_vertex *vertex;
-    float mass; /* of all that were offered */
-    float kept_mass;
+    ppmi_vertex *vertices;
+    uint32_t count;
+    float mass;                          /* of all that were offered */
+    float kept_mass[PPMI_MAX_SCATTERED]; /* of what each place holds */
 } scatter_choice;
 
 static void offer(ppmi_walker *walker, const ppmi_medium_span *span, const ppmi_ray *ray,
                   ppmi_vec3 passing, const ppmi_vertex *arrival, scatter_choice *choice)
 {
-    const float length = span->end - span->begin;
-    float distance;
-    ppmi_vec3 weight;
-    const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
-    if (!ppmi_medium_sample_within(span->medium, length, u_channel, u, &distance, &weight)) return;
     const float mass =
         vec3_mean(vec3_mul(arrival->transmittance, vec3_sub(vec3_splat(1.0f), passing)));
     choice->mass += mass;
-    if (!(mass > 0.0f) || ppmi_rng_float(&walker->rng) * choice->mass >= mass) return;
-    choice->kept_mass = mass;
-    *choice->vertex = (ppmi_vertex){.distance = arrival->distance,
-                                    .transmittance = vec3_mul(arrival->transmittance, weight)};
-    scatter_at(choice->vertex, span->medium, ray, span->begin + distance);
+    if (!(mass > 0.0f)) return;
+    const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
+    const float share = 1.0f / (float)choice->count;
+    for (uint32_t i = 0; i < choice->count; i++) {
+        float distance;
+        ppmi_vec3 weight;
+        if (!ppmi_medium_sample_within(span->medium, span->end - span->begin, u_channel,
+                                       share * ((float)i + u), &distance, &weight)) {
+            return;
+        }
+        if (ppmi_rng_float(&walker->rng) * choice->mass >= mass) continue;
+        choice->kept_mass[i] = mass;
+        ppmi_vertex *vertex = &choice->vertices[i];
+        *vertex = (ppmi_vertex){.distance = arrival->distance,
+                                .transmittance =
+                                    vec3_scale(vec3_mul(arrival->transmittance, weight), share)};
+        scatter_at(vertex, span->medium, ray, span->begin + distance);
+    }
 }
 
 /* Takes the path through the medium before a hit (at t_max; infinite: none). False where it is
@@ -151,14 +160,17 @@ ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
 }
 
 ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
-                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered)
+                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered,
+                                 uint32_t count)
 {
-    out_scattered->medium = NULL;
-    scatter_choice choice = {.vertex = out_scattered};
+    scatter_choice choice = {.vertices = out_scattered, .count = count};
+    for (uint32_t i = 0; i < count; i++)
+        out_scattered[i].medium = NULL;
     const ppmi_arrival arrival = walk(walker, ray, kind, out_vertex, &choice);
-    if (out_scattered->medium) {
-        out_scattered->transmittance =
-            vec3_scale(out_scattered->transmittance, choice.mass / choice.kept_mass);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!out_scattered[i].medium) continue;
+        out_scattered[i].transmittance =
+            vec3_scale(out_scattered[i].transmittance, choice.mass / choice.kept_mass[i]);
     }
     return arrival;
 }

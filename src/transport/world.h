@@ -118,10 +118,12 @@ ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
                        ppmi_vertex *out_vertex);
 
 /* The same for a path that goes both ways at media: it always arrives, with the media's
- * transmittance as weight, and *out_scattered is a vertex drawn from the media on the way, with its
- * own (medium NULL where there is none). */
+ * transmittance as weight, and out_scattered gets count vertices drawn from the media on the way,
+ * spread over it, that share the weight (medium NULL where there is none). */
+enum { PPMI_MAX_SCATTERED = 8 };
 ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
-                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered);
+                                 ppmi_vertex *out_vertex, ppmi_vertex *out_scattered,
+                                 uint32_t count);
 
 /* Light that passes along a ray (unit direction) up to t_max, from within interior: 0 behind
  * anything opaque, else the product of 1 - opacity through alpha and of the media's transmittance.
