@@ -7,7 +7,7 @@
  * a pilot pass finds fewer photons than this: smooth light may be averaged over more than a
  * caustic, which has photons enough within a few pixels. */
 static const float first_scale = 3.0f;
-enum { PILOT_DOUBLINGS = 6, PILOT_PHOTONS = 16 };
+enum { PILOT_DOUBLINGS_DISK = 6, PILOT_DOUBLINGS_BALL = 9, PILOT_PHOTONS = 16 }; /* radius x 8 */
 
 /* No radius is larger than this share of the scene's bounding sphere. */
 static const float largest_share = 0.05f;
@@ -89,8 +89,10 @@ ppm_status ppmi_photon_pass_run_pilot(const ppmi_job *job, ppmi_photon_pass *pho
 void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
                            const ppmi_visible_point *point, float *scale)
 {
-    const float step = ppmi_root_of(2.0f, ppmi_dimension_of(point));
-    for (int i = 0; i < PILOT_DOUBLINGS; i++) {
+    const ppmi_dimension dimension = ppmi_dimension_of(point);
+    const float step = ppmi_root_of(2.0f, dimension);
+    const int doublings = dimension == PPMI_DISK ? PILOT_DOUBLINGS_DISK : PILOT_DOUBLINGS_BALL;
+    for (int i = 0; i < doublings; i++) {
         const float radius = *scale * ppmi_photon_pass_unit(job, photons, point, *scale);
         const ppmi_gathered gathered =
             ppmi_photon_map_gather(&photons->map, job->world.albedo, point, radius);
