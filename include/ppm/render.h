@@ -38,6 +38,13 @@ enum {
     PPM_DIRECT_PHOTONS = 2  /* photons, as all other light */
 };
 
+/* Where photons are sent. */
+enum {
+    PPM_AIM_DEFAULT = 0, /* LEARNT */
+    PPM_AIM_LEARNT = 1,  /* mostly to where a pilot pass had photons that were seen */
+    PPM_AIM_EVEN = 2     /* by power alone, towards the scene */
+};
+
 /* What a pixel averages over. Widths are full widths, in pixels. */
 enum {
     PPM_PIXEL_FILTER_DEFAULT = 0,        /* BLACKMAN_HARRIS */
@@ -62,6 +69,7 @@ typedef struct ppm_render_options {
 
     int32_t schedule;           /* PPM_SCHEDULE_ */
     int32_t direct;             /* PPM_DIRECT_; SPPM and PPM */
+    int32_t aim;                /* PPM_AIM_; SPPM and PPM */
     uint64_t photons_per_epoch; /* PPM: after so many photons, in whole passes, new eye paths and
                                    statistics; the epochs are averaged. 0: one endless epoch */
     int32_t split_depth;        /* PPM: surfaces at which an eye path follows all its branches;

@@ -81,12 +81,14 @@ static void write_options(char *text, size_t size, const char *integrator,
     snprintf(text, size,
              "integrator=%s width=%" PRIu32 " height=%" PRIu32 " photons_per_pass=%" PRIu64
              " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64
-             " schedule=%s direct=%s photons_per_epoch=%" PRIu64 " split_depth=%" PRId32 "%s",
+             " schedule=%s direct=%s aim=%s photons_per_epoch=%" PRIu64 " split_depth=%" PRId32
+             "%s",
              integrator, options->width, options->height, options->photons_per_pass,
              options->max_depth, (double)options->radius_m, (double)options->alpha, options->seed,
              options->schedule == PPM_SCHEDULE_MEMORYLESS ? "memoryless" : "progressive",
              options->direct == PPM_DIRECT_PHOTONS ? "photons" : "sample",
-             options->photons_per_epoch, options->split_depth, camera);
+             options->aim == PPM_AIM_EVEN ? "even" : "learnt", options->photons_per_epoch,
+             options->split_depth, camera);
 }
 
 void ppmi_output_header_init_display(ppmi_output_header *header)

@@ -60,6 +60,7 @@ static const choice schedules[] = {
     {"progressive", PPM_SCHEDULE_PROGRESSIVE}, {"memoryless", PPM_SCHEDULE_MEMORYLESS}, {NULL, 0}};
 static const choice directs[] = {
     {"sample", PPM_DIRECT_SAMPLE}, {"photons", PPM_DIRECT_PHOTONS}, {NULL, 0}};
+static const choice aims[] = {{"learnt", PPM_AIM_LEARNT}, {"even", PPM_AIM_EVEN}, {NULL, 0}};
 static const choice filters[] = {{"box", PPM_PIXEL_FILTER_BOX},
                                  {"gaussian", PPM_PIXEL_FILTER_GAUSSIAN},
                                  {"blackman-harris", PPM_PIXEL_FILTER_BLACKMAN_HARRIS},
@@ -111,6 +112,9 @@ static const option_row rows[] = {
     {"direct", 0, VALUE_CHOICE, FIELD(direct), .choices = directs, .argument = "HOW",
      .help = "light straight from lamps: sample (default), or photons as for\n"
              "all other light"},
+    {"aim", 0, VALUE_CHOICE, FIELD(aim), .choices = aims, .argument = "HOW",
+     .help = "where photons are sent: learnt, mostly to where a pilot's were\n"
+             "seen (default), or even"},
     {"epochs", 0, VALUE_COUNT, FIELD(epochs), .least = 1, .most = 1000000, .argument = "K",
      .help = "ppm: render K times with new eye paths and average, in place\n"
              "of --passes (default: one eye pass for ever)"},

@@ -62,6 +62,7 @@ typedef struct cli_options {
     int32_t integrator; /* PPM_INTEGRATOR_ */
     int32_t schedule;   /* PPM_SCHEDULE_ */
     int32_t direct;     /* PPM_DIRECT_ */
+    int32_t aim;        /* PPM_AIM_ */
     uint64_t epochs;
     uint64_t photons_per_epoch;
     int32_t split_depth; /* as in ppm_render_options */

@@ -202,6 +202,7 @@ int setup_render_options(cli_console *console, ppm_scene *scene, const cli_optio
         .integrator = options->integrator,
         .schedule = options->schedule,
         .direct = options->direct,
+        .aim = options->aim,
         .photons_per_epoch = options->photons_per_epoch,
         .split_depth = options->split_depth,
         .width = options->size.width,

@@ -101,6 +101,20 @@ static bool emit_environment(const ppmi_lights *lights, double u_cell, const flo
     return true;
 }
 
+uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups)
+{
+    if (lights->count == 0) return 0;
+    const uint32_t i = ppmi_alias_sample(&lights->by_power, u_pick, NULL);
+    const uint32_t triangles = lights->triangle_count, others = lights->count - triangles;
+    const uint32_t half = groups / 2;
+    const uint32_t singles = others < half ? others : half;
+    if (i >= triangles) { /* emitters begin with the triangles */
+        const uint32_t index = i - triangles;
+        return index < singles ? index : singles - 1;
+    }
+    return singles + (uint32_t)((uint64_t)i * (groups - singles) / triangles);
+}
+
 bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
                       ppmi_emission *out_emission)
 {

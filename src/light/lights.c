@@ -147,6 +147,7 @@ static void add_emitters(ppmi_lights *lights)
             if (emits) add_triangles(lights, i, k, &mesh->primitives[k]);
         }
     }
+    lights->triangle_count = lights->count;
     add_punctuals(lights, false);
     lights->near_count = lights->count;
     add_punctuals(lights, true);

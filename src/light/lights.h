@@ -54,6 +54,11 @@ typedef struct ppmi_emission {
     ppmi_vec3 power;
 } ppmi_emission;
 
+/* Which of at most groups groups of lights u_pick chooses: lights of one group take u alike. Lamps
+ * and far lights come first, each by itself as far as the groups suffice, then ranges of triangles.
+ */
+uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups);
+
 /* u: four numbers, stratified where possible. False for a photon that carries nothing. */
 bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
                       ppmi_emission *out_emission);

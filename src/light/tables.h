@@ -36,7 +36,7 @@ struct ppmi_lights {
     ppmi_alias by_power;     /* all emitters, for photons */
     ppmi_alias near_lights;  /* the first near_count emitters, for light sampling: by power */
     ppmi_alias directionals; /* the next directional_count: by illuminance */
-    uint32_t near_count, directional_count;
+    uint32_t triangle_count, near_count, directional_count;
     ppmi_sun *suns; /* the directional lights that have a size */
     uint32_t sun_count;
     float class_share;       /* of light samples, for each class that is there */

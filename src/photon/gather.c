@@ -21,20 +21,22 @@ static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
     return geometric > 1e-4f ? ppmi_min(ppmi_bsdf_cosine(bsdf, wi) / geometric, 1e2f) : 0.0f;
 }
 
-static void add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
+/* Whether the photon counted. */
+static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
                        const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered)
 {
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
     if (!is_phase) {
-        if (vec3_dot(photon->ng, bsdf->ng) < normal_tolerance) return;
+        if (vec3_dot(photon->ng, bsdf->ng) < normal_tolerance) return false;
         kernel *= cosine_ratio(bsdf, photon->wi);
     }
     const ppmi_vec3 f =
         ppmi_bsdf_eval(bsdf, albedo, photon->wi, bsdf->gather_lobes, PPMI_TRANSPORT_RADIANCE);
     const ppmi_vec3 contribution = vec3_scale(vec3_mul(f, photon->power), kernel);
-    if (vec3_is_black(contribution)) return;
+    if (vec3_is_black(contribution)) return false;
     gathered->flux = vec3_add(gathered->flux, contribution);
     gathered->count += 1.0f;
+    return true;
 }
 
 /* The photons of a block that lie within the disk: index and squared distance. The tests come
@@ -61,8 +63,9 @@ static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint3
     return selected;
 }
 
-ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius)
+/* marks may be NULL. */
+static ppmi_gathered gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                            const ppmi_visible_point *point, float radius, atomic_uchar *marks)
 {
     const ppmi_bsdf *bsdf = &point->bsdf;
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
@@ -82,10 +85,26 @@ ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table 
             const uint32_t selected = select_block(grid, begin, count, point->position, bsdf->ng,
                                                    radius2, thickness, indices, distances2);
             for (uint32_t k = 0; k < selected; k++) {
-                add_photon(&grid->payloads[indices[k]], bsdf, albedo,
-                           kernel * (1.0f - distances2[k] / radius2), &gathered);
+                const bool counts =
+                    add_photon(&grid->payloads[indices[k]], bsdf, albedo,
+                               kernel * (1.0f - distances2[k] / radius2), &gathered);
+                if (marks && counts) {
+                    atomic_store_explicit(&marks[grid->order[indices[k]]], 1, memory_order_relaxed);
+                }
             }
         }
     }
     return gathered;
+}
+
+ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                          const ppmi_visible_point *point, float radius)
+{
+    return gather(grid, albedo, point, radius, NULL);
+}
+
+void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                      const ppmi_visible_point *point, float radius, atomic_uchar *marks)
+{
+    gather(grid, albedo, point, radius, marks);
 }

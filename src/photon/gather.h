@@ -2,6 +2,8 @@
 #ifndef PPMI_PHOTON_GATHER_H
 #define PPMI_PHOTON_GATHER_H
 
+#include <stdatomic.h>
+
 #include "photon/grid.h"
 #include "photon/point.h"
 
@@ -17,5 +19,10 @@ typedef struct ppmi_gathered {
  * through: what brings nothing must not shrink the radius (mitsuba-renderer/mitsuba#145). */
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                           const ppmi_visible_point *point, float radius);
+
+/* Marks the photons that a gathering there would count, each at its place in the list that the grid
+ * was built from. Any thread: marks of several are the same. */
+void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                      const ppmi_visible_point *point, float radius, atomic_uchar *marks);
 
 #endif

@@ -15,6 +15,14 @@ ppm_status ppmi_photon_map_fill(ppm_context *context, ppmi_photon_map *map,
     return status;
 }
 
+static void free_marks(ppm_context *context, ppmi_photon_map *map)
+{
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++) {
+        ppmi_free(context, map->marks[kind]);
+        map->marks[kind] = NULL;
+    }
+}
+
 void ppmi_photon_map_deinit(ppm_context *context, ppmi_photon_map *map)
 {
     ppmi_photon_scratch_deinit(context, &map->scratch);
@@ -22,6 +30,7 @@ void ppmi_photon_map_deinit(ppm_context *context, ppmi_photon_map *map)
         ppmi_photon_list_deinit(context, &map->photons[kind]);
         ppmi_photon_grid_deinit(context, &map->grids[kind]);
     }
+    free_marks(context, map);
 }
 
 uint64_t ppmi_photon_map_count(const ppmi_photon_map *map)
@@ -30,4 +39,57 @@ uint64_t ppmi_photon_map_count(const ppmi_photon_map *map)
     for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
         count += map->photons[kind].count;
     return count;
+}
+
+/* ---- the guide ------------------------------------------------------------------------------- */
+
+ppm_status ppmi_photon_map_begin_marks(ppm_context *context, ppmi_photon_map *map)
+{
+    free_marks(context, map);
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++) {
+        map->marks[kind] =
+            ppmi_alloc_zeroed(context, map->photons[kind].count + 1, sizeof **map->marks);
+        if (!map->marks[kind]) {
+            free_marks(context, map);
+            return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: photon marks");
+        }
+    }
+    return PPM_STATUS_OK;
+}
+
+/* Photons of one path are one after the other: each path counts once. Returns the number of paths
+ * that were seen. */
+static uint64_t count_seen(const ppmi_photon_map *map, const ppmi_photon_walk *walk, int kind,
+                           ppmi_guide_counts *counts)
+{
+    const ppmi_photon_list *list = &map->photons[kind];
+    uint64_t seen = 0;
+    uint32_t last_path = UINT32_MAX;
+    for (size_t i = 0; i < list->count; i++) {
+        const uint32_t path = list->photons[i].path;
+        const bool is_seen = atomic_load_explicit(&map->marks[kind][i], memory_order_relaxed) != 0;
+        if (!is_seen || path == last_path) continue;
+        last_path = path;
+        const ppmi_emission_sample sample = ppmi_photon_walk_sample(walk, path);
+        ppmi_guide_count(counts, walk->world->lights, &sample);
+        seen++;
+    }
+    return seen;
+}
+
+ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
+                                 const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
+                                 bool *out_is_learnt)
+{
+    enum { LEAST_SEEN = 256 };
+    ppmi_guide_counts *counts = ppmi_alloc_zeroed(context, 1, sizeof *counts);
+    if (!counts) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
+    uint64_t seen = 0;
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
+        seen += count_seen(map, walk, kind, counts);
+    *out_is_learnt = seen >= LEAST_SEEN;
+    if (*out_is_learnt) ppmi_guide_learn(guide, counts);
+    ppmi_free(context, counts);
+    free_marks(context, map);
+    return PPM_STATUS_OK;
 }

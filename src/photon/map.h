@@ -10,6 +10,7 @@ typedef struct ppmi_photon_map {
     ppmi_photon_scratch scratch;
     ppmi_photon_list photons[PPMI_PHOTON_KINDS];
     ppmi_photon_grid grids[PPMI_PHOTON_KINDS];
+    atomic_uchar *marks[PPMI_PHOTON_KINDS]; /* of the photons that were seen; or NULL */
 } ppmi_photon_map;
 
 /* Traces the photons of walk and sorts them, in place of what the map held. typical_radius: see
@@ -20,6 +21,21 @@ ppm_status ppmi_photon_map_fill(ppm_context *context, ppmi_photon_map *map,
 void ppmi_photon_map_deinit(ppm_context *context, ppmi_photon_map *map);
 
 uint64_t ppmi_photon_map_count(const ppmi_photon_map *map);
+
+/* Learning a guide by a map that was filled without one: marks are made, visible points mark the
+ * photons that they see (any thread), and the guide is learnt by those photons' emission. */
+ppm_status ppmi_photon_map_begin_marks(ppm_context *context, ppmi_photon_map *map);
+static inline void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                                        const ppmi_visible_point *point, float radius)
+{
+    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
+    ppmi_gather_mark(&map->grids[kind], albedo, point, radius, map->marks[kind]);
+}
+/* Frees the marks. *out_is_learnt: whether enough was seen to learn from. walk: the map's. Returns
+ * OK, OUT_OF_MEMORY. */
+ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
+                                 const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
+                                 bool *out_is_learnt);
 
 /* Gathers at a visible point, of either kind. */
 static inline ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map,

@@ -14,7 +14,8 @@ typedef struct ppmi_photon {
     ppmi_vec3 position;
     ppmi_vec3 wi; /* where it came from, unit */
     ppmi_vec3 power;
-    ppmi_vec3 ng; /* geometric normal there, on wi's side; 0 in a medium */
+    ppmi_vec3 ng;  /* geometric normal there, on wi's side; 0 in a medium */
+    uint32_t path; /* of those of its walk */
 } ppmi_photon;
 
 /* Photons at surfaces are found in disks, those in media in balls: kept apart. */

@@ -52,14 +52,16 @@ static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bs
     return true;
 }
 
-static bool store(ppm_context *context, ppmi_photon_list *lists, const ppmi_vertex *vertex,
-                  const ppmi_bsdf *bsdf, const ppmi_ray *ray, ppmi_vec3 power)
+static bool store(ppm_context *context, ppmi_photon_list *lists, uint32_t path,
+                  const ppmi_vertex *vertex, const ppmi_bsdf *bsdf, const ppmi_ray *ray,
+                  ppmi_vec3 power)
 {
     const ppmi_photon photon = {
         .position = vertex->surface.position,
         .wi = vec3_neg(ray->direction),
         .power = power,
         .ng = bsdf->ng,
+        .path = path,
     };
     const int kind = vertex->medium ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
     return ppmi_photon_list_push(context, &lists[kind], &photon);
@@ -67,7 +69,7 @@ static bool store(ppm_context *context, ppmi_photon_list *lists, const ppmi_vert
 
 /* Follows one photon to its end. False when memory is out. */
 static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi_walker *walker,
-                        ppmi_emission emission, ppmi_photon_list *lists)
+                        ppmi_emission emission, uint32_t path, ppmi_photon_list *lists)
 {
     ppmi_ray ray = emission.ray;
     ppmi_vec3 power = emission.power;
@@ -80,7 +82,7 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
         if (depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
-            !store(context, lists, &vertex, &bsdf, &ray, power)) {
+            !store(context, lists, path, &vertex, &bsdf, &ray, power)) {
             return false;
         }
         if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power)) return true;
@@ -88,27 +90,45 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
     return true;
 }
 
+/* The sequence has 2^32 points; each block of that many is scrambled anew. */
+static uint64_t stratified_seed(const ppmi_photon_walk *walk, uint64_t index)
+{
+    return walk->seed ^ ppmi_hash64((index >> 32) + PPMI_STREAM_PHOTON);
+}
+
+static ppmi_emission_sample start_photon(const ppmi_photon_walk *walk, ppmi_walker *walker,
+                                         uint32_t i)
+{
+    const uint64_t index = walk->first_index + i;
+    const uint64_t seed = stratified_seed(walk, index);
+    ppmi_emission_sample sample = {.pick = ppmi_sobol1((uint32_t)index, 0, seed)};
+    ppmi_walker_start(walker, ppmi_rng_start(walk->seed, PPMI_STREAM_PHOTON, index), seed,
+                      (uint32_t)index, 0, STRATIFIED_SETS);
+    if (walk->shutter_is_open) walker->time = (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
+    for (int k = 0; k < 4; k++)
+        sample.u[k] = ppmi_walker_float(walker);
+    return sample;
+}
+
+ppmi_emission_sample ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i)
+{
+    ppmi_walker walker;
+    return start_photon(walk, &walker, i);
+}
+
 static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint32_t begin,
                        uint32_t end, ppmi_photon_list *lists, uint64_t *rays)
 {
+    const ppmi_lights *lights = walk->world->lights;
     ppmi_walker walker = {.world = walk->world};
     for (uint32_t i = begin; i < end; i++) {
-        const uint64_t index = walk->first_index + i;
-        /* the sequence has 2^32 points; each block of that many is scrambled anew */
-        const uint64_t seed = walk->seed ^ ppmi_hash64((index >> 32) + PPMI_STREAM_PHOTON);
-        const double pick = ppmi_sobol1((uint32_t)index, 0, seed);
-        ppmi_walker_start(&walker, ppmi_rng_start(walk->seed, PPMI_STREAM_PHOTON, index), seed,
-                          (uint32_t)index, 0, STRATIFIED_SETS);
-        if (walk->shutter_is_open) {
-            walker.time = (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
-        }
-        float u[4];
-        for (int k = 0; k < 4; k++)
-            u[k] = ppmi_walker_float(&walker);
+        ppmi_emission_sample sample = start_photon(walk, &walker, i);
+        const float density = walk->guide ? ppmi_guide_warp(walk->guide, lights, &sample) : 1.0f;
         ppmi_emission emission;
-        if (!ppmi_lights_emit(walk->world->lights, pick, u, &emission)) continue;
+        if (!ppmi_lights_emit(lights, sample.pick, sample.u, &emission)) continue;
+        emission.power = vec3_scale(emission.power, 1.0f / density);
         emission.ray.time = walker.time;
-        if (!walk_photon(context, walk, &walker, emission, lists)) return false;
+        if (!walk_photon(context, walk, &walker, emission, i, lists)) return false;
     }
     *rays += walker.rays;
     return true;

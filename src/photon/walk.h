@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "photon/guide.h"
 #include "photon/photon.h"
 #include "transport/world.h"
 
@@ -15,7 +16,8 @@ typedef struct ppmi_photon_walk {
     uint32_t max_depth;
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
                              a light to light sampling, 0 keeps it */
-    bool shutter_is_open; /* each photon draws a time within it */
+    const ppmi_photon_guide *guide; /* where to send photons; NULL: evenly, by power */
+    bool shutter_is_open;           /* each photon draws a time within it */
     uint32_t threads;
     const atomic_bool *cancel;
 } ppmi_photon_walk;
@@ -29,6 +31,9 @@ typedef struct ppmi_photon_scratch {
 } ppmi_photon_scratch;
 
 void ppmi_photon_scratch_deinit(ppm_context *context, ppmi_photon_scratch *scratch);
+
+/* The numbers that photon i of the walk is emitted by, before any guide. */
+ppmi_emission_sample ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i);
 
 /* Emits count photons and appends those that land on gathering surfaces or are scattered in media
  * to the list of their kind, in the order of emission whatever the number of threads. Adds to

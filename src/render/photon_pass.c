@@ -15,6 +15,7 @@ static const float largest_share = 0.05f;
 void ppmi_photon_pass_deinit(const ppmi_job *job, ppmi_photon_pass *photons)
 {
     ppmi_photon_map_deinit(job->context, &photons->map);
+    ppmi_free(job->context, photons->guide);
 }
 
 /* A radius that few visible points are below: the smallest footprint over a coarse raster, without
@@ -44,12 +45,17 @@ static float measure_first_radius(const ppmi_job *job, float largest_radius)
     return ppmi_min(radius, largest_radius);
 }
 
-void ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
+ppm_status ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
 {
+    photons->guide = ppmi_alloc(job->context, 1, sizeof *photons->guide);
+    if (!photons->guide) {
+        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
+    }
     ppmi_vec3 low, high;
     ppmi_scene_bounds(job->world.scene, &low, &high);
     photons->largest_radius = largest_share * 0.5f * vec3_length(vec3_sub(high, low));
     photons->first_radius = measure_first_radius(job, photons->largest_radius);
+    return PPM_STATUS_OK;
 }
 
 float ppmi_photon_pass_first_scale(const ppmi_job *job)
@@ -57,33 +63,80 @@ float ppmi_photon_pass_first_scale(const ppmi_job *job)
     return job->options->radius_m > 0.0f ? 1.0f : first_scale;
 }
 
-ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, uint64_t pass,
-                                float radius_share, ppm_render_stats *stats)
+static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *photons, uint64_t pass)
 {
-    const double start = omp_get_wtime();
     const uint64_t per_pass = job->options->photons_per_pass;
-    const ppmi_photon_walk walk = {
+    return (ppmi_photon_walk){
         .world = &job->world,
         .seed = job->options->seed,
         .first_index = pass * per_pass,
         .count = (uint32_t)per_pass,
         .max_depth = job->options->max_depth,
         .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
+        .guide = photons->has_guide ? photons->guide : NULL,
         .shutter_is_open = job->options->shutter_close > job->options->shutter_open,
         .threads = job->options->threads,
         .cancel = job->cancel,
     };
+}
+
+ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, uint64_t pass,
+                                float radius_share, ppm_render_stats *stats)
+{
+    const double start = omp_get_wtime();
+    const ppmi_photon_walk walk = walk_of(job, photons, pass);
     const ppm_status status = ppmi_photon_map_fill(
         job->context, &photons->map, &walk, photons->first_radius * radius_share, &stats->rays);
     stats->seconds_photons += omp_get_wtime() - start;
     return status;
 }
 
-ppm_status ppmi_photon_pass_run_pilot(const ppmi_job *job, ppmi_photon_pass *photons,
-                                      ppm_render_stats *stats)
+/* ---- the pilot ------------------------------------------------------------------------------- */
+
+/* Pass numbers that no pass reaches. */
+static uint64_t pilot_pass(const ppmi_job *job, uint64_t number)
 {
-    return ppmi_photon_pass_run(job, photons, PPMI_PILOT_PASS / job->options->photons_per_pass,
-                                1.0f, stats);
+    return PPMI_PILOT_PASS / job->options->photons_per_pass + number;
+}
+
+bool ppmi_photon_pass_wants_guide(const ppmi_job *job, const ppmi_photon_pass *photons)
+{
+    return job->options->aim != PPM_AIM_EVEN && !photons->has_guide;
+}
+
+ppm_status ppmi_photon_pass_begin_guide(const ppmi_job *job, ppmi_photon_pass *photons,
+                                        ppm_render_stats *stats)
+{
+    const ppm_status status = ppmi_photon_pass_run(job, photons, pilot_pass(job, 0), 1.0f, stats);
+    if (status != PPM_STATUS_OK) return status;
+    return ppmi_photon_map_begin_marks(job->context, &photons->map);
+}
+
+void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
+                          const ppmi_visible_point *point)
+{
+    float scale = ppmi_photon_pass_first_scale(job);
+    if (ppmi_photon_pass_wants_radii(job)) ppmi_photon_pass_grow(job, photons, point, &scale);
+    const float radius = scale * ppmi_photon_pass_unit(job, photons, point, scale);
+    ppmi_photon_map_mark(&photons->map, job->world.albedo, point, radius);
+}
+
+ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons)
+{
+    const ppmi_photon_walk walk = walk_of(job, photons, pilot_pass(job, 0));
+    return ppmi_photon_map_learn(job->context, &photons->map, &walk, photons->guide,
+                                 &photons->has_guide);
+}
+
+bool ppmi_photon_pass_wants_radii(const ppmi_job *job)
+{
+    return !(job->options->radius_m > 0.0f);
+}
+
+ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *photons,
+                                        ppm_render_stats *stats)
+{
+    return ppmi_photon_pass_run(job, photons, pilot_pass(job, 1), 1.0f, stats);
 }
 
 void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,

@@ -13,11 +13,14 @@
 /* Zero it to begin with. */
 typedef struct ppmi_photon_pass {
     ppmi_photon_map map; /* of the latest pass */
-    float first_radius;  /* typical small one, metres */
+    ppmi_photon_guide *guide;
+    bool has_guide;     /* it has been learnt */
+    float first_radius; /* typical small one, metres */
     float largest_radius;
 } ppmi_photon_pass;
 
-void ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons);
+/* Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons);
 void ppmi_photon_pass_deinit(const ppmi_job *job, ppmi_photon_pass *photons);
 
 /* Traces the photons of a pass into the map. radius_share: about how far radii have shrunk since
@@ -25,9 +28,28 @@ void ppmi_photon_pass_deinit(const ppmi_job *job, ppmi_photon_pass *photons);
 ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, uint64_t pass,
                                 float radius_share, ppm_render_stats *stats);
 
-/* The same for the pilot, whose photons choose first radii and are not used for the picture. */
-ppm_status ppmi_photon_pass_run_pilot(const ppmi_job *job, ppmi_photon_pass *photons,
-                                      ppm_render_stats *stats);
+/* ---- the pilot: photons that are not used for the picture ------------------------------------ */
+
+/* Passes with the pilot's photons. The first one learns where photons are worth sending, by those
+ * that ppmi_photon_pass_see marks; the second one, aimed as the passes to come, chooses first
+ * radii, by ppmi_photon_pass_grow. Either is left out where the options make it needless. */
+bool ppmi_photon_pass_wants_guide(const ppmi_job *job, const ppmi_photon_pass *photons);
+ppm_status ppmi_photon_pass_begin_guide(const ppmi_job *job, ppmi_photon_pass *photons,
+                                        ppm_render_stats *stats);
+void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
+                          const ppmi_visible_point *point);
+ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons);
+
+bool ppmi_photon_pass_wants_radii(const ppmi_job *job);
+ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *photons,
+                                        ppm_render_stats *stats);
+
+/* Grows a first radius until the pilot's photons suffice. Choosing the radius by the photons that
+ * it then gathers would bias the picture. */
+void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
+                           const ppmi_visible_point *point, float *scale);
+
+/* ---- radii ----------------------------------------------------------------------------------- */
 
 /* The scale that statistics begin with. */
 float ppmi_photon_pass_first_scale(const ppmi_job *job);
@@ -39,11 +61,6 @@ static inline float ppmi_photon_pass_unit(const ppmi_job *job, const ppmi_photon
     if (job->options->radius_m > 0.0f) return job->options->radius_m;
     return ppmi_min(point->footprint, photons->largest_radius / scale);
 }
-
-/* Grows a first radius until the pilot's photons suffice. The pilot's photons are not used for the
- * picture: choosing the radius by the photons that it then gathers would bias it. */
-void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
-                           const ppmi_visible_point *point, float *scale);
 
 /* Photons found around a point within scale times unit; flux includes the throughput. */
 static inline ppmi_gathered ppmi_photon_pass_gather(const ppmi_job *job,

@@ -71,14 +71,18 @@ static ppm_status ppm_create(const ppmi_job *job, void **out_state)
         return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
                          pixels);
     }
-    ppmi_photon_pass_init(job, &state->photons);
+    const ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    if (status != PPM_STATUS_OK) {
+        ppm_destroy(job, state);
+        return status;
+    }
     *out_state = state;
     return PPM_STATUS_OK;
 }
 
 /* ---- the eye pass ---------------------------------------------------------------------------- */
 
-/* The visible points of a tile, with the radii that the pilot's photons in the map suggest. */
+/* The visible points of a tile. */
 static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, uint64_t *rays)
 {
     const ppmi_eye_settings settings = ppmi_eye_settings_of(job);
@@ -101,22 +105,13 @@ static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, ui
     state->statistics[index] =
         ppmi_alloc_zeroed(job->context, points->count, sizeof **state->statistics);
     if (!state->statistics[index]) return false;
-    for (size_t i = 0; i < points->count; i++) {
-        float scale = ppmi_photon_pass_first_scale(job);
-        if (!(job->options->radius_m > 0.0f)) {
-            ppmi_photon_pass_grow(job, &state->photons, &points->points[i], &scale);
-        }
-        state->statistics[index][i].now.scale = scale;
-    }
+    for (size_t i = 0; i < points->count; i++)
+        state->statistics[index][i].now.scale = ppmi_photon_pass_first_scale(job);
     return true;
 }
 
-static ppm_status eye_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
+static ppm_status trace_tiles(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
 {
-    if (!(job->options->radius_m > 0.0f)) {
-        const ppm_status status = ppmi_photon_pass_run_pilot(job, &state->photons, stats);
-        if (status != PPM_STATUS_OK) return status;
-    }
     const double start = omp_get_wtime();
     const uint32_t tiles = ppmi_tile_count(&job->film);
     uint64_t rays = 0;
@@ -136,6 +131,47 @@ static ppm_status eye_pass(const ppmi_job *job, ppm_state *state, ppm_render_sta
                          "out of memory: visible points (a smaller split depth needs less)");
     }
     return atomic_load(job->cancel) ? PPM_STATUS_CANCELLED : PPM_STATUS_OK;
+}
+
+typedef void (*tile_step)(const ppmi_job *job, ppm_state *state, uint32_t index);
+
+static void mark_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
+{
+    for (size_t i = 0; i < state->tiles[index].count; i++)
+        ppmi_photon_pass_see(job, &state->photons, &state->tiles[index].points[i]);
+}
+
+static void grow_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
+{
+    for (size_t i = 0; i < state->tiles[index].count; i++) {
+        ppmi_photon_pass_grow(job, &state->photons, &state->tiles[index].points[i],
+                              &state->statistics[index][i].now.scale);
+    }
+}
+
+static ppm_status for_tiles(const ppmi_job *job, ppm_state *state, tile_step step)
+{
+    const uint32_t tiles = ppmi_tile_count(&job->film);
+#pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)
+    for (uint32_t i = 0; i < tiles; i++) {
+        if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) step(job, state, i);
+    }
+    return atomic_load(job->cancel) ? PPM_STATUS_CANCELLED : PPM_STATUS_OK;
+}
+
+static ppm_status eye_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
+{
+    ppm_status status = trace_tiles(job, state, stats);
+    if (status == PPM_STATUS_OK && ppmi_photon_pass_wants_guide(job, &state->photons)) {
+        status = ppmi_photon_pass_begin_guide(job, &state->photons, stats);
+        if (status == PPM_STATUS_OK) status = for_tiles(job, state, mark_tile);
+        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_guide(job, &state->photons);
+    }
+    if (status == PPM_STATUS_OK && ppmi_photon_pass_wants_radii(job)) {
+        status = ppmi_photon_pass_begin_radii(job, &state->photons, stats);
+        if (status == PPM_STATUS_OK) status = for_tiles(job, state, grow_tile);
+    }
+    return status;
 }
 
 /* ---- epochs ---------------------------------------------------------------------------------- */
@@ -213,13 +249,10 @@ static void gather_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
 static ppm_status gather_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
 {
     const double start = omp_get_wtime();
-    const uint32_t tiles = ppmi_tile_count(&job->film);
-#pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)
-    for (uint32_t i = 0; i < tiles; i++) {
-        if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) gather_tile(job, state, i);
-    }
+    const ppm_status status = for_tiles(job, state, gather_tile);
     stats->seconds_gather += omp_get_wtime() - start;
-    if (atomic_load(job->cancel)) return PPM_STATUS_CANCELLED;
+    if (status != PPM_STATUS_OK) return status;
+    const uint32_t tiles = ppmi_tile_count(&job->film);
     for (uint32_t t = 0; t < tiles; t++) {
         for (size_t i = 0; i < state->tiles[t].count; i++)
             state->statistics[t][i].now = state->statistics[t][i].next;

@@ -138,10 +138,11 @@ static ppm_status check_options(const ppm_scene *scene, const ppm_render_options
                          (int)options->integrator);
     }
     if (options->schedule < PPM_SCHEDULE_DEFAULT || options->schedule > PPM_SCHEDULE_MEMORYLESS ||
-        options->direct < PPM_DIRECT_DEFAULT || options->direct > PPM_DIRECT_PHOTONS) {
+        options->direct < PPM_DIRECT_DEFAULT || options->direct > PPM_DIRECT_PHOTONS ||
+        options->aim < PPM_AIM_DEFAULT || options->aim > PPM_AIM_EVEN) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
-                         "no schedule of number %d, or no direct light of number %d",
-                         (int)options->schedule, (int)options->direct);
+                         "no schedule of number %d, direct light of number %d or aim of number %d",
+                         (int)options->schedule, (int)options->direct, (int)options->aim);
     }
     if (options->schedule == PPM_SCHEDULE_MEMORYLESS &&
         options->integrator != PPM_INTEGRATOR_DEFAULT &&
@@ -196,6 +197,7 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     }
     if (resolved.schedule == PPM_SCHEDULE_DEFAULT) resolved.schedule = PPM_SCHEDULE_PROGRESSIVE;
     if (resolved.direct == PPM_DIRECT_DEFAULT) resolved.direct = PPM_DIRECT_SAMPLE;
+    if (resolved.aim == PPM_AIM_DEFAULT) resolved.aim = PPM_AIM_LEARNT;
     if (resolved.split_depth == 0) resolved.split_depth = 4;
     if (resolved.max_depth == 0) resolved.max_depth = 32;
     if (resolved.alpha == 0.0f) resolved.alpha = 2.0f / 3.0f;

@@ -100,7 +100,11 @@ static ppm_status sppm_create(const ppmi_job *job, void **out_state)
         return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
                          ppmi_film_pixel_count(&job->film));
     }
-    ppmi_photon_pass_init(job, &state->photons);
+    const ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    if (status != PPM_STATUS_OK) {
+        sppm_destroy(job, state);
+        return status;
+    }
     *out_state = state;
     return PPM_STATUS_OK;
 }
@@ -139,8 +143,20 @@ static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_ti
 
 /* ---- the pilot ------------------------------------------------------------------------------- */
 
+/* What a pilot does with the points of a pixel. */
+typedef void (*pilot_step)(const ppmi_job *job, sppm_state *state, size_t pixel,
+                           const tile_eye *eye, uint32_t slot);
+
+static void mark_photons(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
+                         uint32_t slot)
+{
+    (void)pixel;
+    for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++)
+        ppmi_photon_pass_see(job, &state->photons, &eye->points[i]);
+}
+
 /* By the first point of each kind. */
-static void grow_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
+static void grow_radii(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
                        uint32_t slot)
 {
     bool has_grown[2] = {false, false};
@@ -155,7 +171,7 @@ static void grow_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, con
     }
 }
 
-static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
+static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index, pilot_step step)
 {
     const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     tile_eye eye;
@@ -166,19 +182,14 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
     }
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
-        for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
-            const size_t pixel = (size_t)y * job->film.width + x;
-            grow_pixel(job, state, pixel, &eye, slot);
-        }
+        for (uint32_t x = tile.x0; x < tile.x1; x++, slot++)
+            step(job, state, (size_t)y * job->film.width + x, &eye, slot);
     }
     return true;
 }
 
-static ppm_status pilot_pass(const ppmi_job *job, sppm_state *state, ppm_render_stats *stats)
+static ppm_status pilot_tiles(const ppmi_job *job, sppm_state *state, pilot_step step)
 {
-    if (job->options->radius_m > 0.0f) return PPM_STATUS_OK;
-    const ppm_status status = ppmi_photon_pass_run_pilot(job, &state->photons, stats);
-    if (status != PPM_STATUS_OK) return status;
     const uint32_t tiles = ppmi_tile_count(&job->film);
     bool failed = false;
 #pragma omp parallel for num_threads((int)job->options->threads) schedule(dynamic, 1)              \
@@ -186,11 +197,34 @@ static ppm_status pilot_pass(const ppmi_job *job, sppm_state *state, ppm_render_
               : failed)
     for (uint32_t i = 0; i < tiles; i++) {
         if (!atomic_load_explicit(job->cancel, memory_order_relaxed)) {
-            failed = !pilot_tile(job, state, i) || failed;
+            failed = !pilot_tile(job, state, i, step) || failed;
         }
     }
     if (failed) return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: points");
     return atomic_load(job->cancel) ? PPM_STATUS_CANCELLED : PPM_STATUS_OK;
+}
+
+static void reset_radii(const ppmi_job *job, sppm_state *state)
+{
+    const size_t count = ppmi_film_pixel_count(&job->film);
+    for (size_t i = 0; i < count; i++) {
+        state->now.surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
+        if (state->now.volumes) state->now.volumes[i].scale = ppmi_photon_pass_first_scale(job);
+    }
+}
+
+static ppm_status pilot_passes(const ppmi_job *job, sppm_state *state, ppm_render_stats *stats)
+{
+    ppm_status status = PPM_STATUS_OK;
+    if (ppmi_photon_pass_wants_guide(job, &state->photons)) {
+        status = ppmi_photon_pass_begin_guide(job, &state->photons, stats);
+        if (status == PPM_STATUS_OK) status = pilot_tiles(job, state, mark_photons);
+        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_guide(job, &state->photons);
+    }
+    if (status != PPM_STATUS_OK || !ppmi_photon_pass_wants_radii(job)) return status;
+    reset_radii(job, state); /* an earlier pilot may have been cancelled half-way */
+    status = ppmi_photon_pass_begin_radii(job, &state->photons, stats);
+    return status == PPM_STATUS_OK ? pilot_tiles(job, state, grow_radii) : status;
 }
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
@@ -306,7 +340,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     ppm_render_stats added = *stats;
     ppm_status status = PPM_STATUS_OK;
     if (!state->has_pilot) {
-        status = pilot_pass(job, state, &added);
+        status = pilot_passes(job, state, &added);
         if (status != PPM_STATUS_OK) return status;
         state->has_pilot = true;
     }
