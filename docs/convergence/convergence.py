@@ -43,7 +43,7 @@ def _at_least(kind, least):
     return parse
 
 
-def _share(text):
+def _trim(text):
     value = float(text)
     if not 0 <= value < 1:
         raise argparse.ArgumentTypeError(f"{text} is not from 0 to below 1")
@@ -73,7 +73,7 @@ def _parser():
     add("--photons", type=_at_least(int, 0), metavar="N", help="a pass (0: the program's default)")
     add("--seeds", type=_at_least(int, 1), default=1, metavar="N", help="take medians of N (1)")
     add("--threads", type=_at_least(int, 1), default=2, metavar="N", help="(2)")
-    add("--trim", type=_share, default=0.001, metavar="F", help="share of worst pixels (0.001)")
+    add("--trim", type=_trim, default=0.001, metavar="F", help="share of worst pixels (0.001)")
     add("--reference-time", type=seconds, metavar="SECONDS", help="of each part (4 * --time)")
     add("--reference-parts", type=_at_least(int, 2), metavar="N", help="averaged (4)")
     add("--quick", action="store_true", help="a smoke test: other defaults, small and short")
@@ -85,19 +85,26 @@ def _parser():
         help="where ppm-render and ppm-compare are (build/release/bin)",
     )
     add("--work", type=Path, metavar="DIR", help="pictures are kept here (out/convergence)")
-    add("--output", type=Path, metavar="DIR", help="for tables and plots (beside this script; "
-        "with --quick out/convergence-quick)")
+    add(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="for tables and plots (beside this script; with --quick out/convergence-quick)",
+    )
     return parser
 
 
 def _arguments(words):
     """All defaults filled in."""
-    args = _parser().parse_args(words)
+    parser = _parser()
+    args = parser.parse_args(words)
     for name, value in (QUICK if args.quick else FULL).items():
         if getattr(args, name) is None:
             setattr(args, name, value)
     args.scenes = args.scenes or (QUICK_SCENES if args.quick else DEFAULT_SCENES)
     args.at = args.at or args.time / 2
+    if args.at > args.time:
+        parser.error(f"--at {args.at:g} is after the end of the curves, --time {args.time:g}")
     args.reference_time = args.reference_time or 4 * args.time
     args.work = args.work or PROJECT / "out/convergence"
     args.output = args.output or (PROJECT / "out/convergence-quick" if args.quick else HERE)

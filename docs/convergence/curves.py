@@ -20,19 +20,22 @@ class CurvePoint:
 
 def make_curve(points, integrator):
     """Sorted by time. Where a pass takes longer than the step between two times, both give the same
-    picture: it is one point."""
+    picture: it is one point, at the shorter time."""
     mine = [point for point in points if point.integrator == integrator]
-    curve = []
+    medians = []
     for target in sorted({point.target_seconds for point in mine}):
         same = [point for point in mine if point.target_seconds == target]
-        made = CurvePoint(
-            median(point.render.seconds for point in same),
-            median(point.render.passes for point in same),
-            *(median(getattr(point.errors, metric) for point in same) for metric in METRICS),
+        medians.append(
+            CurvePoint(
+                median(point.render.seconds for point in same),
+                median(point.render.passes for point in same),
+                *(median(getattr(point.errors, metric) for point in same) for metric in METRICS),
+            )
         )
-        if not curve or (made.passes > curve[-1].passes and made.seconds > curve[-1].seconds):
-            curve.append(made)
-    return curve
+    curve = {}
+    for made in sorted(medians, key=lambda made: made.seconds):
+        curve.setdefault(made.passes, made)
+    return list(curve.values())
 
 
 def _logarithms(curve, metric):
@@ -52,7 +55,7 @@ def value_at(curve, metric, seconds):
         near = logs[0] if x < logs[0][0] else logs[-1]
         return math.exp(near[1]) if abs(x - near[0]) < math.log(1.1) else None
     for (x0, y0), (x1, y1) in zip(logs, logs[1:]):
-        if x <= x1:
+        if x0 < x1 and x <= x1:
             return math.exp(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
     return math.exp(logs[-1][1])
 

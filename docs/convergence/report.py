@@ -1,5 +1,6 @@
 """What is written: a table of all points, a plot and a section of results.md for each scene."""
 
+import math
 import platform
 import subprocess
 from pathlib import Path
@@ -51,17 +52,42 @@ def write_tsv(path, scene, points):
 _PLOT_HEAD = """\
 set terminal pngcairo size 1500,560 font "sans,12" background "white"
 set output "{file}"
-set multiplot layout 1,3 title "{title}" font "sans,14" margins 0.06,0.985,0.24,0.86 spacing 0.065,0
+set multiplot title "{title}" font "sans,14"
 set logscale xy
-set format y "10^{{%T}}"
 set xrange [{x_low:g}:{x_high:g}]
+set xtics ({x_ticks})
 set xlabel "rendering time in seconds, {threads} threads"
-set grid xtics ytics mxtics mytics linecolor rgb "#c0c0c0", linecolor rgb "#ececec"
+set grid xtics ytics mytics linecolor rgb "#c0c0c0", linecolor rgb "#ececec"
 set border linecolor rgb "#606060"
+set tmargin at screen 0.88
+set bmargin at screen 0.23
 unset key
 """
 
-_KEY = "set key horizontal center at screen 0.5,0.055 samplen 2.5 spacing 1.2 width 1"
+# The key has a plot of its own, as wide as the picture, in which nothing is drawn.
+_PLOT_KEY = """\
+unset border
+unset tics
+unset grid
+unset xlabel
+unset ylabel
+set lmargin at screen 0.02
+set rmargin at screen 0.98
+set tmargin at screen 0.11
+set bmargin at screen 0.01
+set key horizontal center center samplen 2.5 width 2
+set yrange [1:2]
+"""
+
+_LEFT_SIDES = (0.06, 0.392, 0.724)  # of the panels, as shares of the picture's width
+_PANEL_WIDTH = 0.262
+
+
+def _ticks(low, high):
+    """1, 2, 5 of each decade: gnuplot itself would label the decades only."""
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    ticks = [digit * 10.0**decade for decade in decades for digit in (1, 2, 5)]
+    return ", ".join(f"{tick:g}" for tick in ticks if low <= tick <= high)
 
 
 def _quote(text):
@@ -78,41 +104,67 @@ def _data_block(integrator, curve):
     return "\n".join([f"${integrator} << EOD", *rows, "EOD"])
 
 
+def _line(name, what):
+    look = INTEGRATORS[name]
+    return (
+        f'{what} with linespoints title "{_quote(look.title)}" linewidth 2 '
+        f'linecolor rgb "{look.colour}" pointtype {look.point} pointsize 1.2'
+    )
+
+
+def _noise_line(what):
+    look = 'linewidth 1.5 dashtype 2 linecolor rgb "#404040"'
+    return f'{what} with lines title "noise of the reference" {look}'
+
+
 def _panel(curves, metric, label, noise):
-    column = 2 + METRICS.index(metric)
-    lines = [
-        f'${name} using 1:{column} with linespoints title "{_quote(INTEGRATORS[name].title)}" '
-        f'linewidth 2 linecolor rgb "{INTEGRATORS[name].colour}" '
-        f"pointtype {INTEGRATORS[name].point} pointsize 1.2"
-        for name in curves
+    """noise: 0 for none."""
+    values = [getattr(point, metric) for curve in curves.values() for point in curve]
+    values = [value for value in [*values, noise] if value > 0] or [1.0]
+    low, high = min(values) / 1.4, max(values) * 1.4
+    column = METRICS.index(metric)
+    left = _LEFT_SIDES[column]
+    lines = [_line(name, f"${name} using 1:{2 + column}") for name in curves]
+    if noise > 0:
+        lines.append(_noise_line(f"{noise:.6g}"))
+    commands = [
+        f"set lmargin at screen {left}",
+        f"set rmargin at screen {left + _PANEL_WIDTH}",
+        f"set yrange [{low:g}:{high:g}]",
+        f'set ylabel "{label}" offset 1',
     ]
-    if noise:
-        lines.append(
-            f'{noise:.6g} with lines title "noise of the reference" '
-            'linewidth 1.5 dashtype 2 linecolor rgb "#404040"'
-        )
-    return f'set ylabel "{label}" offset 1\nplot ' + ", \\\n     ".join(lines)
+    if high / low < 100:
+        commands += ['set format y "%g"', f"set ytics ({_ticks(low, high)})"]
+    else:
+        commands += ['set format y "10^{%T}"', "set ytics autofreq"]
+    return "\n".join([*commands, "plot " + ", \\\n     ".join(lines)])
+
+
+def _key(curves):
+    lines = [*(_line(name, "NaN") for name in curves), _noise_line("NaN")]
+    return _PLOT_KEY + "plot " + ", \\\n     ".join(lines)
 
 
 def _plot_script(file, scene, setting, curves, reference):
     seconds = [point.seconds for curve in curves.values() for point in curve]
+    low, high = min(seconds) / 1.25, max(seconds) * 1.25
     height = scene.height_for(setting.width)
     head = _PLOT_HEAD.format(
-        file=_quote(file).replace("\\\\_", "_"),
+        file=file,
         title=_quote(f"{scene.name}, {setting.width} x {height}"),
-        x_low=min(seconds) / 1.25,
-        x_high=max(seconds) * 1.25,
+        x_low=low,
+        x_high=high,
+        x_ticks=_ticks(low, high),
         threads=setting.threads,
     )
     trimmed = f"relative MSE without the worst {100 * setting.trim:g} %"
     panels = [
         _panel(curves, "relative_mse", "relative MSE", reference.noise),
         _panel(curves, "relative_mse_trimmed", trimmed, reference.noise_trimmed),
-        _panel(curves, "flip", "mean FLIP", None),
+        _panel(curves, "flip", "mean FLIP", 0),
     ]
-    panels[1] = f"{_KEY}\n{panels[1]}\nunset key"
     blocks = [_data_block(name, curve) for name, curve in curves.items()]
-    return "\n".join([head, *blocks, *panels, "unset multiplot", ""])
+    return "\n".join([head, *blocks, *panels, _key(curves), "unset multiplot", ""])
 
 
 def write_plot(path, scene, setting, points, reference):
