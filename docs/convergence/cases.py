@@ -90,7 +90,7 @@ SCENES = {
             "ceramic_box",
             800,
             640,
-            _by_photons("paths find reflected caustics only when they happen to hit the small lamp"),
+            _by_photons("paths find the caustics only when they happen to hit the small lamp"),
         ),
         Scene(
             "glass_of_water",
@@ -146,6 +146,13 @@ INTEGRATORS = {
             "ppm, epochs of 10 million",
             "#009e73",
             9,
+        ),
+        Integrator(
+            "epochs_photons",
+            ("-i", "ppm", "--photons-per-epoch", "10000000", "--direct", "photons"),
+            "ppm, epochs, all light by photons",
+            "#000000",
+            2,
         ),
         Integrator("ppm", ("-i", "ppm"), "ppm, one eye pass", "#e69f00", 11),
         Integrator("map", ("-i", "ppm", "--alpha", "1"), "photon map, fixed radius", "#cc79a7", 13),
