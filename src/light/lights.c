@@ -357,19 +357,13 @@ static bool sample_triangle(const ppmi_lights *lights, const emitter *e, ppmi_ve
     return !vec3_is_black(sample->radiance);
 }
 
-/* A constant environment is sampled by the cosine where there is a surface. */
-static bool is_by_cosine(const ppmi_environment_map *map, ppmi_vec3 n)
-{
-    return ppmi_environment_map_is_constant(map) && !vec3_is_black(n);
-}
-
-/* An image is sampled by its power, a constant environment in a medium evenly. */
+/* A constant environment is sampled by the cosine, an image by its power. */
 static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_cell, float u,
                                float v, ppmi_light_sample *sample)
 {
     const ppmi_environment_map *map = &lights->environment;
     sample->is_far = true;
-    if (is_by_cosine(map, n)) {
+    if (ppmi_environment_map_is_constant(map)) {
         const ppmi_frame frame = ppmi_frame_from_normal(n);
         const ppmi_vec3 local = ppmi_sample_cosine_hemisphere(u, v);
         sample->wi = ppmi_frame_to_world(&frame, local);
@@ -437,8 +431,9 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
 float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)
 {
     const ppmi_environment_map *map = &lights->environment;
-    const float pdf = is_by_cosine(map, n) ? ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI
-                                           : ppmi_environment_map_pdf(map, wi);
+    const float pdf = ppmi_environment_map_is_constant(map)
+                          ? ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI
+                          : ppmi_environment_map_pdf(map, wi);
     return lights->has_environment ? lights->class_share * pdf : 0.0f;
 }
 
