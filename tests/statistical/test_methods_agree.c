@@ -119,7 +119,7 @@ static void a_box_of_glass(void **state)
                                    .photons = 10000,
                                    .radius_m = 0.02f,
                                    .bias = edge_bias,
-                                   .resolution = 0.05,
+                                   .resolution = 0.08,
                                    .seeds = 8};
     methods_agree(scene, &how);
 }
@@ -140,7 +140,7 @@ static void a_foggy_box_with_a_glass_ball(void **state)
                                    .photons = 10000,
                                    .radius_m = 0.02f,
                                    .bias = edge_bias,
-                                   .resolution = 0.1,
+                                   .resolution = 0.15,
                                    .seeds = 8};
     methods_agree(scene, &how);
 }
