@@ -32,6 +32,12 @@ void ppmi_accel_destroy(ppmi_accel *accel);
 /* The closest hit in (0, t_max); false when there is none. Any thread. */
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit);
 
+/* All hits in (0, t_max), at most max of them, nearest first; a triangle may be among them twice.
+ * Returns their number. Where more are in the way, which of them are found is not said. Any thread.
+ */
+uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hits,
+                                  uint32_t max);
+
 /* Whether anything is in (0, t_max). Any thread. */
 bool ppmi_accel_occluded(const ppmi_accel *accel, const ppmi_ray *ray);
 

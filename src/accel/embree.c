@@ -60,11 +60,17 @@ static void attach_primitive(ppmi_accel *accel, RTCScene mesh_scene, unsigned id
     rtcReleaseGeometry(geometry);
 }
 
+#if RTC_VERSION_MAJOR >= 4
+#define FILTER_FLAG RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
+#else
+#define FILTER_FLAG RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+#endif
+
 /* ROBUST: no ray slips through the edge between two triangles. */
 static RTCScene new_scene(ppmi_accel *accel)
 {
     RTCScene scene = rtcNewScene(accel->device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | FILTER_FLAG);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     return scene;
 }
@@ -195,6 +201,66 @@ bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit
         .t = query.ray.tfar,
     };
     return true;
+}
+
+/* ---- all hits -------------------------------------------------------------------------------- */
+
+/* Embree's own context, and behind it ours: a filter is given the former. */
+typedef struct collection {
+#if RTC_VERSION_MAJOR >= 4
+    struct RTCRayQueryContext context;
+#else
+    struct RTCIntersectContext context;
+#endif
+    ppmi_hit *hits;
+    uint32_t count, max;
+} collection;
+
+/* Notes a hit in its place by distance, and lets the ray go on. Of single rays the packets of N are
+ * plain structs. */
+static void collect(const struct RTCFilterFunctionNArguments *arguments)
+{
+    collection *all = (collection *)arguments->context;
+    const struct RTCRay *ray = (const struct RTCRay *)arguments->ray;
+    const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
+    arguments->valid[0] = 0;
+    if (all->count == all->max) return;
+    const ppmi_hit hit = {
+        .instance = found->instID[0],
+        .primitive = found->geomID,
+        .triangle = found->primID,
+        .u = found->u,
+        .v = found->v,
+        .t = ray->tfar,
+    };
+    uint32_t place = all->count++;
+    for (; place > 0 && all->hits[place - 1].t > hit.t; place--)
+        all->hits[place] = all->hits[place - 1];
+    all->hits[place] = hit;
+}
+
+uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hits,
+                                  uint32_t max)
+{
+    struct RTCRayHit query;
+    query.ray = embree_ray(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    collection all = {.hits = out_hits, .max = max};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&all.context);
+    struct RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = &all.context;
+    arguments.filter = collect;
+    rtcIntersect1(accel->top, &query, &arguments);
+#else
+    rtcInitIntersectContext(&all.context);
+    all.context.filter = collect;
+    rtcIntersect1(accel->top, &all.context, &query);
+#endif
+    return all.count;
 }
 
 bool ppmi_accel_occluded(const ppmi_accel *accel, const ppmi_ray *ray)

@@ -7,8 +7,8 @@
  * interface; something opaque takes the solid's place, as if in optical contact. */
 #include "transport/solid.h"
 
-/* Surfaces at one place that are told apart. */
-enum { MAX_TOUCHING = 4 };
+/* Hits of surfaces at one place: each counts twice on the edge between two triangles. */
+enum { MAX_TOUCHING = 12 };
 
 static bool is_entered(const ppmi_surface *surface, ppmi_vec3 direction)
 {
@@ -47,31 +47,26 @@ static void cross_touching(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex
         return;
     }
     const float back = ppmi_min(depth, 0.9f * vertex->hit.t); /* not behind where the ray began */
-    ppmi_ray probe = {.origin = vec3_mad(vertex->surface.position, direction, -back),
-                      .t_max = back + depth,
-                      .direction = direction,
-                      .time = walker->time};
-    for (int i = 0; i < MAX_TOUCHING; i++) {
-        ppmi_hit hit;
-        walker->rays++;
-        if (!ppmi_accel_intersect(world->accel, &probe, &hit)) return;
-        if (!is_same_part(&hit, &own)) {
-            ppmi_surface surface;
-            ppmi_surface_from_hit(world->scene, &hit, &surface);
-            vertex->surface.error = ppmi_max(vertex->surface.error, window);
-            if (surface.material->is_solid_glass) {
-                cross(&surface, direction, &walker->interior, &vertex->behind);
-            } else if (!surface.material->has_alpha &&
-                       surface.material->desc.transmission == 0.0f) {
-                vertex->hit = hit;
-                vertex->surface = surface;
-                return;
-            }
+    const ppmi_ray probe = {.origin = vec3_mad(vertex->surface.position, direction, -back),
+                            .t_max = back + depth,
+                            .direction = direction,
+                            .time = walker->time};
+    ppmi_hit hits[MAX_TOUCHING];
+    walker->rays++;
+    const uint32_t count = ppmi_accel_intersect_all(world->accel, &probe, hits, MAX_TOUCHING);
+    for (uint32_t i = 0; i < count; i++) {
+        if (is_same_part(&hits[i], &own)) continue;
+        ppmi_surface surface;
+        ppmi_surface_from_hit(world->scene, &hits[i], &surface);
+        vertex->surface.error = ppmi_max(vertex->surface.error, window);
+        if (surface.material->is_solid_glass) {
+            cross(&surface, direction, &walker->interior, &vertex->behind);
+        } else if (!surface.material->has_alpha && surface.material->desc.transmission == 0.0f) {
+            vertex->hit = hits[i];
+            vertex->surface = surface;
+            vertex->surface.error = ppmi_max(surface.error, window);
+            return;
         }
-        const float step = hit.t + 0.02f * depth;
-        probe.origin = vec3_mad(probe.origin, direction, step);
-        probe.t_max -= step;
-        if (!(probe.t_max > 0.0f)) return;
     }
 }
 

@@ -200,11 +200,42 @@ static void smooth_normals_are_those_of_the_ellipsoid(void **state)
     scene_close(&test);
 }
 
+/* Sheets at one place are all found, and the order is that of the distance. */
+static void all_hits_are_found_nearest_first(void **state)
+{
+    (void)state;
+    test_scene test;
+    scene_open(&test);
+    const float heights[5] = {2.0f, 1.0f, 1.0f, 1.0f, 3.0f};
+    for (int i = 0; i < 5; i++)
+        add_quad(test.scene, 0, vec3(-1, -1, heights[i]), vec3(3, 0, 0), vec3(0, 3, 0));
+    test_world world;
+    world_open(&world, &test);
+    ppmi_ray ray = ray_from(vec3(0.3f, 0.1f, 0), vec3(0, 0, 1));
+    ppmi_hit hits[8];
+    assert_int_equal(ppmi_accel_intersect_all(world.accel, &ray, hits, 8), 5);
+    uint32_t seen = 0;
+    for (uint32_t i = 0; i < 5; i++) {
+        assert_near(hits[i].t, heights[hits[i].instance], 1e-6);
+        assert_true(i == 0 || hits[i].t >= hits[i - 1].t);
+        seen |= 1u << hits[i].instance;
+    }
+    assert_int_equal(seen, 31);
+    assert_int_equal(ppmi_accel_intersect_all(world.accel, &ray, hits, 2), 2);
+    ray.t_max = 1.5f;
+    assert_int_equal(ppmi_accel_intersect_all(world.accel, &ray, hits, 8), 3);
+    ray.t_max = 0.5f;
+    assert_int_equal(ppmi_accel_intersect_all(world.accel, &ray, hits, 8), 0);
+    world_close(&world);
+    scene_close(&test);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_empty_scene_is_never_hit),
         cmocka_unit_test(hits_name_what_they_hit),
+        cmocka_unit_test(all_hits_are_found_nearest_first),
         cmocka_unit_test(sheared_and_mirrored_boxes_are_hit_where_they_are),
         cmocka_unit_test(smooth_normals_are_those_of_the_ellipsoid),
     };

@@ -214,6 +214,79 @@ static void an_even_density_gives_the_irradiance(void **state)
     family_check(&family);
 }
 
+/* ---- in media -------------------------------------------------------------------------------- */
+
+static void look_into_fog(float asymmetry_g)
+{
+    const ppmi_medium fog = {.sigma_s = {2.0f, 1.0f, 0.5f}, .asymmetry_g = asymmetry_g};
+    point = (ppmi_visible_point){.footprint = 1.0f};
+    ppmi_bsdf_make_phase(&fog, up, &point.bsdf);
+}
+
+static void in_a_medium_the_radius_bounds_the_ball(void **state)
+{
+    (void)state;
+    look_into_fog(0.5f);
+    ppmi_photon photon = photon_at(0.0f, 0.0f, 0.999f);
+    photon.ng = vec3_splat(0.0f);
+    assert_counts(&photon, true);
+    photon.position = vec3(0.6f, -0.6f, 0.6f);
+    assert_counts(&photon, false);
+    photon.position = vec3(-0.5f, 0.5f, -0.5f);
+    photon.wi = vec3_neg(up); /* from anywhere */
+    assert_counts(&photon, true);
+}
+
+/* Power times sigma_s times the phase function, from the direction of flight to that of the eye. */
+static void in_a_medium_a_photon_brings_power_times_phase(void **state)
+{
+    (void)state;
+    look_into_fog(0.5f);
+    ppmi_photon photon = photon_at(0.0f, 0.0f, 0.5f);
+    const double kernel = 2.5 * (1.0 - 0.25);
+    /* it comes from where the eye is, and is scattered back */
+    double phase = (1.0 - 0.25) / (4.0 * M_PI * pow(1.0 + 0.25 + 1.0, 1.5));
+    assert_near(gather(&photon, 1, 1.0f).flux.x, 2.0 * kernel * phase, 1e-6);
+    assert_near(gather(&photon, 1, 1.0f).flux.z, 3.0 * 0.5 * kernel * phase, 1e-6);
+    /* it flies towards the eye */
+    photon.wi = vec3_neg(up);
+    phase = (1.0 - 0.25) / (4.0 * M_PI * pow(1.0 + 0.25 - 1.0, 1.5));
+    assert_near(gather(&photon, 1, 1.0f).flux.x, 2.0 * kernel * phase, 1e-5);
+}
+
+/* An even density in a ball gives the fluence without bias, whatever the radius. */
+static void in_a_medium_an_even_density_gives_the_fluence(void **state)
+{
+    (void)state;
+    enum { COUNT = 20000 };
+    static ppmi_photon photons[COUNT];
+    look_into_fog(0.0f);
+    ppmi_rng rng = ppmi_rng_start(1, PPMI_STREAM_PHOTON, 0);
+    const float radii[3] = {0.3f, 0.5f, 0.9f};
+    test_mean means[3] = {{0}};
+    for (uint32_t trial = 0; trial < TEST_EFFORT(40); trial++) {
+        for (int i = 0; i < COUNT; i++) {
+            const float x = 2.0f * ppmi_rng_float(&rng) - 1.0f;
+            const float y = 2.0f * ppmi_rng_float(&rng) - 1.0f;
+            photons[i] = photon_at(x, y, 2.0f * ppmi_rng_float(&rng) - 1.0f);
+            photons[i].power = vec3_splat(8.0f / COUNT); /* fluence 1 over 2 by 2 by 2 */
+            photons[i].ng = vec3_splat(0.0f);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double volume = 4.0 / 3.0 * M_PI * pow((double)radii[k], 3.0);
+            /* sigma_s / 4 pi of the fluence */
+            const double flux = (double)gather(photons, COUNT, radii[k]).flux.y;
+            mean_add(&means[k], flux / volume * 4.0 * M_PI);
+        }
+    }
+    test_family family = {0};
+    for (int k = 0; k < 3; k++) {
+        mean_check_power(&means[k], 0.02);
+        family_add_mean(&family, &means[k], 1.0, 0.0, "radius %g", (double)radii[k]);
+    }
+    family_check(&family);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -226,6 +299,9 @@ int main(void)
         cmocka_unit_test(only_gathering_lobes_count),
         cmocka_unit_test(shading_normals_weigh_by_the_ratio_of_cosines),
         cmocka_unit_test(an_even_density_gives_the_irradiance),
+        cmocka_unit_test(in_a_medium_the_radius_bounds_the_ball),
+        cmocka_unit_test(in_a_medium_a_photon_brings_power_times_phase),
+        cmocka_unit_test(in_a_medium_an_even_density_gives_the_fluence),
     };
     return cmocka_run_group_tests(tests, start, finish);
 }

@@ -109,6 +109,68 @@ static void stored_power_follows_the_reflectance(void **state)
     family_check(&family);
 }
 
+/* From depth 0 on, what comes straight from the light is kept too: all of it, once. */
+static void direct_light_is_kept_from_depth_0_only(void **state)
+{
+    (void)state;
+    open_box(vec3_splat(0.5f));
+    ppmi_photon_walk walk = walk_of(1, 2000, 1, 1);
+    ppmi_photon_list list = run(&walk);
+    assert_int_equal(list.count, 0);
+    ppmi_photon_list_deinit(test.context, &list);
+    walk.first_depth = 0;
+    list = run(&walk);
+    assert_int_equal(list.count, 2000);
+    assert_near(total_power(&list).y / 2000.0f, 4.0 * M_PI, 1e-4);
+    ppmi_photon_list_deinit(test.context, &list);
+}
+
+/* A point light in the middle of a ball of fog: the fluence of light that was not scattered,
+ * integrated over the ball, is 4 pi I (1 - exp(-sigma R)) / sigma, and what the photons at their
+ * first vertices stand for. */
+static void photons_in_fog_stand_for_the_fluence(void **state)
+{
+    (void)state;
+    const ppm_material_id black = material_lambert(test.scene, 0.0f);
+    add_quad(test.scene, black, vec3_splat(-1), vec3(1e-3f, 0, 0), vec3(0, 1e-3f, 0));
+    add_quad(test.scene, black, vec3_splat(1), vec3(-1e-3f, 0, 0), vec3(0, -1e-3f, 0));
+    light_point(test.scene, vec3_splat(0), vec3_splat(1.0f));
+    scene_fog(test.scene, vec3(0.5f, 0.2f, 1.0f), vec3(0.0f, 0.4f, 0.3f), 0.6f);
+    world_open(&world, &test);
+    const double sigma[3] = {0.5, 0.6, 1.3}, radius = sqrt(3.0) * 1.0001;
+    test_mean means[3] = {{0}};
+    const uint32_t count = TEST_EFFORT(4000);
+    for (uint64_t seed = 1; seed <= 16; seed++) {
+        ppmi_photon_walk walk = walk_of(seed, count, 1, 2);
+        walk.first_depth = 0;
+        ppmi_photon_scratch scratch = {0};
+        ppmi_photon_list lists[PPMI_PHOTON_KINDS] = {{0}};
+        uint64_t rays = 0;
+        assert_int_equal(ppmi_photon_walk_run(test.context, &walk, &scratch, lists, &rays),
+                         PPM_STATUS_OK);
+        const ppmi_photon_list *list = &lists[PPMI_PHOTONS_VOLUME];
+        for (size_t i = 0; i < list->count; i++) {
+            assert_true(vec3_is_black(list->photons[i].ng));
+            const ppmi_vec3 flight = vec3_normalize(list->photons[i].position);
+            assert_true(vec3_dot(flight, list->photons[i].wi) < -0.999f);
+        }
+        const ppmi_vec3 power = total_power(list);
+        mean_add(&means[0], (double)power.x / count);
+        mean_add(&means[1], (double)power.y / count);
+        mean_add(&means[2], (double)power.z / count);
+        ppmi_photon_scratch_deinit(test.context, &scratch);
+        ppmi_photon_list_deinit(test.context, &lists[PPMI_PHOTONS_SURFACE]);
+        ppmi_photon_list_deinit(test.context, &lists[PPMI_PHOTONS_VOLUME]);
+    }
+    test_family family = {0};
+    for (int k = 0; k < 3; k++) {
+        mean_check_power(&means[k], 0.01);
+        const double expected = 4.0 * M_PI * (1.0 - exp(-sigma[k] * radius)) / sigma[k];
+        family_add_mean(&family, &means[k], expected, 2e-3 * expected, "channel %d", k);
+    }
+    family_check(&family);
+}
+
 /* Roulette: numbers fall by the reflectance, powers stay. */
 static void roulette_keeps_the_power_of_photons(void **state)
 {
@@ -268,6 +330,8 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(stored_power_follows_the_reflectance),
+        WITH_SCENE(direct_light_is_kept_from_depth_0_only),
+        WITH_SCENE(photons_in_fog_stand_for_the_fluence),
         WITH_SCENE(roulette_keeps_the_power_of_photons),
         WITH_SCENE(photons_lie_on_walls_and_come_from_inside),
         WITH_SCENE(the_list_does_not_depend_on_the_threads),

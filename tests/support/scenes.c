@@ -165,6 +165,14 @@ void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image,
     assert_int_equal(ppm_scene_set_environment(scene, &desc), PPM_STATUS_OK);
 }
 
+void scene_fog(ppm_scene *scene, ppmi_vec3 sigma_s, ppmi_vec3 sigma_a, float asymmetry_g)
+{
+    ppm_fog_desc desc = {.size = sizeof desc, .asymmetry_g = asymmetry_g};
+    vec3_store(desc.sigma_s, sigma_s);
+    vec3_store(desc.sigma_a, sigma_a);
+    assert_int_equal(ppm_scene_set_fog(scene, &desc), PPM_STATUS_OK);
+}
+
 ppm_image_id image_rgb(ppm_scene *scene, uint32_t width, uint32_t height, const float *pixels)
 {
     const ppm_image_desc desc = {.size = sizeof desc,

@@ -41,6 +41,8 @@ ppm_light_id light_sun(ppm_scene *scene, ppmi_vec3 direction, ppmi_vec3 illumina
                        float angular_radius_rad);
 void light_environment(ppm_scene *scene, ppmi_vec3 radiance, ppm_image_id image,
                        float rotation_rad);
+/* Fog in the ball around the scene: scattering and absorption, 1/m, and mean cosine. */
+void scene_fog(ppm_scene *scene, ppmi_vec3 sigma_s, ppmi_vec3 sigma_a, float asymmetry_g);
 /* A linear RGB image of floats. */
 ppm_image_id image_rgb(ppm_scene *scene, uint32_t width, uint32_t height, const float *pixels);
 
