@@ -53,6 +53,15 @@ static void pixels_deinit(const ppmi_job *job, sppm_pixels *pixels)
     ppmi_free(job->context, pixels->volumes);
 }
 
+static void set_first_scales(const ppmi_job *job, sppm_pixels *pixels)
+{
+    const size_t count = ppmi_film_pixel_count(&job->film);
+    for (size_t i = 0; i < count; i++) {
+        pixels->surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
+        if (pixels->volumes) pixels->volumes[i].scale = ppmi_photon_pass_first_scale(job);
+    }
+}
+
 static bool pixels_init(const ppmi_job *job, sppm_pixels *pixels)
 {
     const size_t count = ppmi_film_pixel_count(&job->film);
@@ -61,10 +70,7 @@ static bool pixels_init(const ppmi_job *job, sppm_pixels *pixels)
         pixels->volumes = ppmi_alloc_zeroed(job->context, count, sizeof *pixels->volumes);
     }
     if (!pixels->surfaces || (job->world.has_scattering && !pixels->volumes)) return false;
-    for (size_t i = 0; i < count; i++) {
-        pixels->surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
-        if (pixels->volumes) pixels->volumes[i].scale = ppmi_photon_pass_first_scale(job);
-    }
+    set_first_scales(job, pixels);
     return true;
 }
 
@@ -166,6 +172,7 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index)
 static ppm_status pilot_pass(const ppmi_job *job, sppm_state *state, ppm_render_stats *stats)
 {
     if (job->options->radius_m > 0.0f) return PPM_STATUS_OK;
+    set_first_scales(job, &state->now); /* a pilot that failed may have grown some */
     const ppm_status status = ppmi_photon_pass_run_pilot(job, &state->photons, stats);
     if (status != PPM_STATUS_OK) return status;
     const uint32_t tiles = ppmi_tile_count(&job->film);
