@@ -59,7 +59,8 @@ typedef struct ppm_render_options {
     int32_t integrator; /* PPM_INTEGRATOR_ */
     uint32_t width;     /* pixels; default 1280 */
     uint32_t height;    /* pixels; default from width and the camera's aspect (16:9 if not said) */
-    uint64_t photons_per_pass; /* default: the number of pixels, within 2^18 .. 2^22 */
+    uint64_t photons_per_pass; /* default: the number of pixels, within 2^18 .. 2^22; SPPM sends
+                                  fewer where aiming keeps as many of them */
     uint32_t max_depth;        /* bounces of a path; default 32 */
     float radius_m;            /* first gather radius; default: from each pixel's footprint */
     float alpha;               /* share of new photons that is kept, 0 < alpha <= 1; default 2/3 */

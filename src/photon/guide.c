@@ -126,6 +126,13 @@ static float guided_density(const ppmi_photon_guide *guide, const ppmi_lights *l
            plane_density(&planes[1], sample->u[2], sample->u[3]);
 }
 
+float ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_lights *lights,
+                         const ppmi_emission_sample *sample)
+{
+    return PPMI_GUIDE_EVEN_SHARE +
+           (1.0f - PPMI_GUIDE_EVEN_SHARE) * guided_density(guide, lights, sample);
+}
+
 /* The choice between the guide and an even sample is made by the pick, whose rest stays even. */
 float ppmi_guide_warp(const ppmi_photon_guide *guide, const ppmi_lights *lights,
                       ppmi_emission_sample *sample)
@@ -140,6 +147,5 @@ float ppmi_guide_warp(const ppmi_photon_guide *guide, const ppmi_lights *lights,
         warp_plane(&planes[0], &sample->u[0], &sample->u[1]);
         warp_plane(&planes[1], &sample->u[2], &sample->u[3]);
     }
-    return PPMI_GUIDE_EVEN_SHARE +
-           (1.0f - PPMI_GUIDE_EVEN_SHARE) * guided_density(guide, lights, sample);
+    return ppmi_guide_density(guide, lights, sample);
 }

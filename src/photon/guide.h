@@ -43,9 +43,12 @@ void ppmi_guide_count(ppmi_guide_counts *counts, const ppmi_lights *lights,
                       const ppmi_emission_sample *sample);
 void ppmi_guide_learn(ppmi_photon_guide *guide, const ppmi_guide_counts *counts);
 
-/* Turns an even sample into one of the guide's density, which is returned (by that of even
- * samples); at least PPMI_GUIDE_EVEN_SHARE. */
+/* Density of a sample, by that of even ones: at least PPMI_GUIDE_EVEN_SHARE. */
 #define PPMI_GUIDE_EVEN_SHARE 0.3f
+float ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_lights *lights,
+                         const ppmi_emission_sample *sample);
+
+/* Turns an even sample into one of the guide's density, which is returned. */
 float ppmi_guide_warp(const ppmi_photon_guide *guide, const ppmi_lights *lights,
                       ppmi_emission_sample *sample);
 

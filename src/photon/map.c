@@ -77,9 +77,30 @@ static uint64_t count_seen(const ppmi_photon_map *map, const ppmi_photon_walk *w
     return seen;
 }
 
+/* A photon that was kept will be met as much more often as its sample is drawn. */
+static double gain_of(const ppmi_photon_map *map, const ppmi_photon_walk *walk,
+                      const ppmi_photon_guide *guide)
+{
+    double kept = 0.0, will_be_kept = 0.0, density = 1.0;
+    for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++) {
+        const ppmi_photon_list *list = &map->photons[kind];
+        uint32_t last_path = UINT32_MAX;
+        for (size_t i = 0; i < list->count; i++) {
+            if (list->photons[i].path != last_path) {
+                last_path = list->photons[i].path;
+                const ppmi_emission_sample sample = ppmi_photon_walk_sample(walk, last_path);
+                density = (double)ppmi_guide_density(guide, walk->world->lights, &sample);
+            }
+            kept += 1.0;
+            will_be_kept += density;
+        }
+    }
+    return kept > 0.0 ? will_be_kept / kept : 1.0;
+}
+
 ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
                                  const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
-                                 bool *out_is_learnt)
+                                 double *out_gain)
 {
     enum { LEAST_SEEN = 256 };
     ppmi_guide_counts *counts = ppmi_alloc_zeroed(context, 1, sizeof *counts);
@@ -87,8 +108,11 @@ ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
     uint64_t seen = 0;
     for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
         seen += count_seen(map, walk, kind, counts);
-    *out_is_learnt = seen >= LEAST_SEEN;
-    if (*out_is_learnt) ppmi_guide_learn(guide, counts);
+    *out_gain = 0.0;
+    if (seen >= LEAST_SEEN) {
+        ppmi_guide_learn(guide, counts);
+        *out_gain = gain_of(map, walk, guide);
+    }
     ppmi_free(context, counts);
     free_marks(context, map);
     return PPM_STATUS_OK;

@@ -31,11 +31,11 @@ static inline void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_a
     const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
     ppmi_gather_mark(&map->grids[kind], albedo, point, radius, map->marks[kind]);
 }
-/* Frees the marks. *out_is_learnt: whether enough was seen to learn from. walk: the map's. Returns
- * OK, OUT_OF_MEMORY. */
+/* Frees the marks. *out_gain: how many times as many photons will be kept with the guide, 0 where
+ * too little was seen to learn from. walk: the map's. Returns OK, OUT_OF_MEMORY. */
 ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
                                  const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
-                                 bool *out_is_learnt);
+                                 double *out_gain);
 
 /* Gathers at a visible point, of either kind. */
 static inline ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map,

@@ -25,6 +25,7 @@ static inline size_t ppmi_film_pixel_count(const ppmi_film *film)
 typedef struct ppmi_job {
     ppm_context *context;
     const ppm_render_options *options; /* resolved */
+    bool photons_are_free;             /* nobody said how many photons a pass has */
     ppmi_world world;
     ppmi_camera_view view; /* of the whole picture */
     ppmi_pixel_filter filter;

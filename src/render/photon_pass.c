@@ -51,6 +51,7 @@ ppm_status ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
     if (!photons->guide) {
         return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
     }
+    photons->per_pass = job->options->photons_per_pass;
     ppmi_vec3 low, high;
     ppmi_scene_bounds(job->world.scene, &low, &high);
     photons->largest_radius = largest_share * 0.5f * vec3_length(vec3_sub(high, low));
@@ -65,7 +66,7 @@ float ppmi_photon_pass_first_scale(const ppmi_job *job)
 
 static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *photons, uint64_t pass)
 {
-    const uint64_t per_pass = job->options->photons_per_pass;
+    const uint64_t per_pass = photons->per_pass;
     return (ppmi_photon_walk){
         .world = &job->world,
         .seed = job->options->seed,
@@ -123,9 +124,18 @@ void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
 
 ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons)
 {
+    const double most = 16.0; /* a pilot says little about what it hardly found */
     const ppmi_photon_walk walk = walk_of(job, photons, pilot_pass(job, 0));
-    return ppmi_photon_map_learn(job->context, &photons->map, &walk, photons->guide,
-                                 &photons->has_guide);
+    double gain;
+    const ppm_status status =
+        ppmi_photon_map_learn(job->context, &photons->map, &walk, photons->guide, &gain);
+    if (status != PPM_STATUS_OK) return status;
+    photons->has_guide = gain > 0.0;
+    const bool is_sppm = job->options->integrator == PPM_INTEGRATOR_SPPM;
+    if (is_sppm && job->photons_are_free && gain > 1.0) {
+        photons->per_pass = (uint64_t)((double)photons->per_pass / fmin(gain, most));
+    }
+    return PPM_STATUS_OK;
 }
 
 bool ppmi_photon_pass_wants_radii(const ppmi_job *job)

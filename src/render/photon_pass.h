@@ -15,6 +15,7 @@ typedef struct ppmi_photon_pass {
     ppmi_photon_map map; /* of the latest pass */
     ppmi_photon_guide *guide;
     bool has_guide;     /* it has been learnt */
+    uint64_t per_pass;  /* photons to emit */
     float first_radius; /* typical small one, metres */
     float largest_radius;
 } ppmi_photon_pass;
@@ -38,6 +39,8 @@ ppm_status ppmi_photon_pass_begin_guide(const ppmi_job *job, ppmi_photon_pass *p
                                         ppm_render_stats *stats);
 void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
                           const ppmi_visible_point *point);
+/* With a guide fewer photons do as much: where nobody said how many, sppm goes on with as many as
+ * keep the number that was kept without. */
 ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons);
 
 bool ppmi_photon_pass_wants_radii(const ppmi_job *job);

@@ -270,14 +270,14 @@ static ppm_status ppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
         status = begin_epoch(job, state, &added);
         if (status != PPM_STATUS_OK) return status;
     }
-    const double per_pass = (double)job->options->photons_per_pass;
+    const double per_pass = (double)state->photons.per_pass;
     const float passed = (float)(state->epoch_emitted / per_pass);
     const float shrunk = powf(passed + 1.0f, 0.5f * (job->options->alpha - 1.0f));
     status = ppmi_photon_pass_run(job, &state->photons, pass, shrunk, &added);
     if (status == PPM_STATUS_OK) status = gather_pass(job, state, &added);
     if (status != PPM_STATUS_OK) return status;
     state->epoch_emitted += per_pass;
-    added.photons_emitted += job->options->photons_per_pass;
+    added.photons_emitted += state->photons.per_pass;
     added.photons_stored += ppmi_photon_map_count(&state->photons.map);
     *stats = added;
     return PPM_STATUS_OK;

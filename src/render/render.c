@@ -10,6 +10,7 @@ struct ppm_render {
     ppm_context *context;
     ppm_scene *scene;
     ppm_render_options options;
+    bool photons_are_free;
     ppmi_accel *accel;
     ppmi_lights *lights;
     ppmi_albedo_table *albedo;
@@ -302,6 +303,7 @@ static ppm_status start(ppm_render *render)
     render->job = (ppmi_job){
         .context = render->context,
         .options = &render->options,
+        .photons_are_free = render->photons_are_free,
         .cancel = &render->cancel,
     };
     ppmi_world_init(&render->job.world, render->scene, render->accel, render->lights,
@@ -351,6 +353,7 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     render->context = scene->context;
     render->scene = scene;
     render->options = resolved;
+    render->photons_are_free = !options || options->photons_per_pass == 0;
     warn_about_the_lens(scene, options, &resolved);
     ppmi_scene_freeze(scene);
     status = start(render);

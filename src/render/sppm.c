@@ -54,6 +54,15 @@ static void pixels_deinit(const ppmi_job *job, sppm_pixels *pixels)
     ppmi_free(job->context, pixels->volumes);
 }
 
+static void set_first_scales(const ppmi_job *job, sppm_pixels *pixels)
+{
+    const size_t count = ppmi_film_pixel_count(&job->film);
+    for (size_t i = 0; i < count; i++) {
+        pixels->surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
+        if (pixels->volumes) pixels->volumes[i].scale = ppmi_photon_pass_first_scale(job);
+    }
+}
+
 static bool pixels_init(const ppmi_job *job, sppm_pixels *pixels)
 {
     const size_t count = ppmi_film_pixel_count(&job->film);
@@ -62,10 +71,7 @@ static bool pixels_init(const ppmi_job *job, sppm_pixels *pixels)
         pixels->volumes = ppmi_alloc_zeroed(job->context, count, sizeof *pixels->volumes);
     }
     if (!pixels->surfaces || (job->world.has_scattering && !pixels->volumes)) return false;
-    for (size_t i = 0; i < count; i++) {
-        pixels->surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
-        if (pixels->volumes) pixels->volumes[i].scale = ppmi_photon_pass_first_scale(job);
-    }
+    set_first_scales(job, pixels);
     return true;
 }
 
@@ -204,15 +210,6 @@ static ppm_status pilot_tiles(const ppmi_job *job, sppm_state *state, pilot_step
     return atomic_load(job->cancel) ? PPM_STATUS_CANCELLED : PPM_STATUS_OK;
 }
 
-static void reset_radii(const ppmi_job *job, sppm_state *state)
-{
-    const size_t count = ppmi_film_pixel_count(&job->film);
-    for (size_t i = 0; i < count; i++) {
-        state->now.surfaces[i].surface.scale = ppmi_photon_pass_first_scale(job);
-        if (state->now.volumes) state->now.volumes[i].scale = ppmi_photon_pass_first_scale(job);
-    }
-}
-
 static ppm_status pilot_passes(const ppmi_job *job, sppm_state *state, ppm_render_stats *stats)
 {
     ppm_status status = PPM_STATUS_OK;
@@ -222,7 +219,7 @@ static ppm_status pilot_passes(const ppmi_job *job, sppm_state *state, ppm_rende
         if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_guide(job, &state->photons);
     }
     if (status != PPM_STATUS_OK || !ppmi_photon_pass_wants_radii(job)) return status;
-    reset_radii(job, state); /* an earlier pilot may have been cancelled half-way */
+    set_first_scales(job, &state->now); /* a pilot that failed may have grown some */
     status = ppmi_photon_pass_begin_radii(job, &state->photons, stats);
     return status == PPM_STATUS_OK ? pilot_tiles(job, state, grow_radii) : status;
 }
@@ -247,7 +244,7 @@ static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
     const float unit = ppmi_photon_pass_unit(job, &state->photons, point, first);
     const ppmi_gathered gathered =
         ppmi_photon_pass_gather(job, &state->photons, point, scale, unit);
-    const double emitted = (double)job->options->photons_per_pass;
+    const double emitted = (double)state->photons.per_pass;
     const double extent = (double)ppmi_extent_of(scale * unit, dimension);
     return vec3_scale(gathered.flux, (float)(1.0 / (emitted * extent)));
 }
@@ -360,7 +357,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     added.rays += totals.rays;
     added.seconds_eye += totals.seconds_eye / threads;
     added.seconds_gather += totals.seconds_gather / threads;
-    added.photons_emitted += job->options->photons_per_pass;
+    added.photons_emitted += state->photons.per_pass;
     added.photons_stored += ppmi_photon_map_count(&state->photons.map);
     added.eye_paths += ppmi_film_pixel_count(&job->film);
     *stats = added;
@@ -371,7 +368,7 @@ static void sppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passe
 {
     const sppm_state *state = opaque;
     const size_t pixels = ppmi_film_pixel_count(&job->film);
-    const double emitted = (double)passes * (double)job->options->photons_per_pass;
+    const double emitted = (double)passes * (double)state->photons.per_pass;
     for (size_t i = 0; i < pixels; i++) {
         const pixel_statistics *pixel = &state->now.surfaces[i];
         ppmi_vec3 radiance = vec3_mad(ppmi_statistics_radiance(&pixel->surface, PPMI_DISK, emitted),

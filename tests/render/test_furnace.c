@@ -52,7 +52,64 @@ static void a_closed_box_that_shines_has_twice_its_emission(void **state)
     camera_perspective(test.scene, vec3(0.1f, 0.0f, 0.5f), vec3(0, 0, -1), 0.6f);
     compare("box", PPM_INTEGRATOR_PATH, 0, 0.0f, 2.0, 1e-6, 0.003);
     compare("box, radius given", PPM_INTEGRATOR_SPPM, 20000, 0.1f, 2.0, 1e-6, 0.003);
+    compare("box, kept eye paths", PPM_INTEGRATOR_PPM, 20000, 0.1f, 2.0, 1e-6, 0.005);
     compare("box, radius by footprint", PPM_INTEGRATOR_SPPM, 20000, 0.0f, 2.0, 1e-6, 0.01);
+    family_check(&family);
+}
+
+static void the_box_is_the_same_memoryless_and_in_epochs(void **state)
+{
+    (void)state;
+    const ppm_material_id wall = material_emitter(test.scene, 1.0f, 0.5f, false);
+    shape_place(test.scene, shape_box(test.scene, wall, vec3_splat(-1), vec3_splat(1), 1, true));
+    camera_perspective(test.scene, vec3(0.1f, 0.0f, 0.5f), vec3(0, 0, -1), 0.6f);
+    for (int i = 0; i < 4; i++) {
+        const bool is_ppm = i % 2 == 1;
+        ppm_render_options options =
+            render_options(is_ppm ? PPM_INTEGRATOR_PPM : PPM_INTEGRATOR_SPPM, 16, 20000);
+        options.radius_m = 0.1f;
+        options.direct = i < 2 ? PPM_DIRECT_SAMPLE : PPM_DIRECT_PHOTONS;
+        if (is_ppm) {
+            options.photons_per_epoch = 40000;
+        } else {
+            options.schedule = PPM_SCHEDULE_MEMORYLESS;
+        }
+        const test_mean mean = render_green(test.scene, &options, 4, SEEDS);
+        mean_check_power(&mean, 0.005);
+        family_add_mean(&family, &mean, 2.0, 2e-6, "case %d", i);
+    }
+    family_check(&family);
+}
+
+/* White light on rough glass and on ceramic, at every roughness: never more than comes in. */
+static void rough_glass_and_ceramic_are_not_brighter_than_the_sky(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        for (int step = 0; step <= 4; step++) {
+            scene_close(&test);
+            scene_open(&test);
+            ppm_material_desc desc;
+            ppm_material_desc_init(&desc);
+            desc.transmission = kind == 0 ? 1.0f : 0.0f;
+            desc.roughness = 0.25f * (float)step;
+            shape_place(test.scene,
+                        shape_sphere(test.scene, material_add(test.scene, &desc), 1.0f, 64, true));
+            light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
+            camera_orthographic(test.scene, vec3(0, 0, 5), vec3(0, 0, 0), 0.9f);
+            for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PPM; i++) {
+                ppm_render_options options = render_options(i, 16, 1000);
+                options.radius_m = 0.05f;
+                options.max_depth = 100;
+                const test_mean mean = render_green(test.scene, &options, 4, SEEDS);
+                mean_check_power(&mean, 0.02);
+                /* 1 %: the albedo table (tests/shading) */
+                family_add_at_most(&family, &mean, 1.01, "kind %d, roughness %g, integrator %d",
+                                   kind, (double)desc.roughness, i);
+                assert_true(mean.mean > 0.1); /* it may lose some: not all */
+            }
+        }
+    }
     family_check(&family);
 }
 
@@ -114,7 +171,7 @@ static void glass_in_the_open_is_not_seen(void **state)
         light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
         camera_orthographic(test.scene, vec3(1, 2, 5), vec3(0, 0, 0), 1.5f);
         ppm_render_options options = render_options(PPM_INTEGRATOR_PATH, 16, 1000);
-        for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PATH; i++) {
+        for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PPM; i++) {
             options.integrator = i;
             options.max_depth = 1000; /* rays that are totally reflected in a cube stay long */
             const test_mean mean = render_green(test.scene, &options, 4, SEEDS);
@@ -132,6 +189,8 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(a_closed_box_that_shines_has_twice_its_emission),
+        WITH_SCENE(the_box_is_the_same_memoryless_and_in_epochs),
+        WITH_SCENE(rough_glass_and_ceramic_are_not_brighter_than_the_sky),
         WITH_SCENE(a_ball_in_the_open_has_its_reflectance),
         WITH_SCENE(plastic_and_metal_that_are_white_vanish),
         WITH_SCENE(glass_in_the_open_is_not_seen),

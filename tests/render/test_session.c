@@ -50,8 +50,8 @@ static void bad_options_are_refused(void **state)
 {
     (void)state;
     ppm_render *render = NULL;
-    ppm_render_options bad[8];
-    for (int i = 0; i < 8; i++)
+    ppm_render_options bad[14];
+    for (int i = 0; i < 14; i++)
         bad[i] = render_options(PPM_INTEGRATOR_SPPM, 8, 1000);
     bad[0].size = 4;
     bad[1].integrator = 99;
@@ -61,7 +61,15 @@ static void bad_options_are_refused(void **state)
     bad[5].camera = 2;
     bad[6].width = 1u << 20;
     bad[7].photons_per_pass = UINT64_MAX;
-    for (int i = 0; i < 8; i++) {
+    bad[8].integrator = PPM_INTEGRATOR_PPM;
+    bad[8].schedule = PPM_SCHEDULE_MEMORYLESS;
+    bad[9].photons_per_epoch = 1000; /* of sppm */
+    bad[10].split_depth = 99;
+    bad[11].schedule = 9;
+    bad[12].direct = -1;
+    bad[13].integrator = PPM_INTEGRATOR_PATH;
+    bad[13].schedule = PPM_SCHEDULE_MEMORYLESS;
+    for (int i = 0; i < 14; i++) {
         assert_int_equal(ppm_render_create(test.scene, &bad[i], &render),
                          PPM_STATUS_INVALID_ARGUMENT);
         assert_null(render);
@@ -121,8 +129,7 @@ static void assert_same_picture(const float *a, const float *b, bool same)
 static void the_same_seed_gives_the_same_bits_with_any_threads(void **state)
 {
     (void)state;
-    for (int32_t integrator = PPM_INTEGRATOR_SPPM; integrator <= PPM_INTEGRATOR_PATH;
-         integrator++) {
+    for (int32_t integrator = PPM_INTEGRATOR_SPPM; integrator <= PPM_INTEGRATOR_PPM; integrator++) {
         ppm_render_options options = render_options(integrator, SIDE, 5000);
         options.threads = 1;
         float *one = render_picture(test.scene, &options, 3);
@@ -138,6 +145,92 @@ static void the_same_seed_gives_the_same_bits_with_any_threads(void **state)
         assert_same_picture(one, other_seed, false);
         free(other_seed);
         free(one);
+    }
+}
+
+/* Ways that the loop above does not go: epochs, the memoryless schedule, photons for direct light,
+ * each in fog and through dispersive glass. */
+enum { WAYS = 5 };
+
+static ppm_render_options way(int i, uint64_t photons)
+{
+    ppm_render_options options =
+        render_options(i < 3 ? PPM_INTEGRATOR_PPM : PPM_INTEGRATOR_SPPM, SIDE, photons);
+    if (i == 1 || i == 2) options.photons_per_epoch = 2 * photons;
+    if (i == 2 || i == 4) options.direct = PPM_DIRECT_PHOTONS;
+    if (i == 3) options.schedule = PPM_SCHEDULE_MEMORYLESS;
+    return options;
+}
+
+static void add_fog_and_a_prism(void)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.transmission = 1.0f;
+    desc.roughness = 0.0f;
+    desc.dispersion = 0.8f;
+    shape_place_at(test.scene,
+                   shape_sphere(test.scene, material_add(test.scene, &desc), 0.3f, 16, true),
+                   vec3(-0.4f, 0.3f, -0.2f));
+    scene_fog(test.scene, vec3(0.3f, 0.2f, 0.1f), vec3_splat(0.1f), 0.4f);
+}
+
+static void fog_epochs_and_dispersion_are_the_same_with_any_threads(void **state)
+{
+    (void)state;
+    add_fog_and_a_prism();
+    for (int i = 0; i < WAYS; i++) {
+        ppm_render_options options = way(i, 3000);
+        float *one = render_picture(test.scene, &options, 5);
+        const uint32_t threads[] = {2, 7};
+        for (int k = 0; k < 2; k++) {
+            options.threads = threads[k];
+            float *other = render_picture(test.scene, &options, 5);
+            assert_same_picture(one, other, true);
+            free(other);
+        }
+        free(one);
+    }
+}
+
+/* Memory that runs out, in the making or in a pass, is a status; what was finished stays, and the
+ * next pass goes on as if nothing had been. */
+static void failing_memory_is_reported_in_fog_too(void **state)
+{
+    (void)state;
+    add_fog_and_a_prism();
+    static float before[FLOATS], after[FLOATS];
+    for (int i = 0; i < WAYS; i++) {
+        const ppm_render_options options = way(i, 500);
+        ppm_render *render = NULL;
+        ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+        for (size_t n = 1; status != PPM_STATUS_OK; n++) {
+            ppmi_alloc_fail_at(test.context, n);
+            status = ppm_render_create(test.scene, &options, &render);
+            ppmi_alloc_fail_at(test.context, 0);
+            assert_true(status == PPM_STATUS_OK || status == PPM_STATUS_OUT_OF_MEMORY);
+        }
+        /* three passes, the third begins an epoch; each may fail at any allocation */
+        for (int pass = 0; pass < 3; pass++) {
+            if (pass > 0) {
+                assert_int_equal(ppm_render_read_image(render, before, FLOATS), PPM_STATUS_OK);
+            }
+            status = PPM_STATUS_OUT_OF_MEMORY;
+            for (size_t n = 1; status != PPM_STATUS_OK; n++) {
+                ppmi_alloc_fail_at(test.context, n);
+                status = ppm_render_advance(render);
+                ppmi_alloc_fail_at(test.context, 0);
+                assert_true(status == PPM_STATUS_OK || status == PPM_STATUS_OUT_OF_MEMORY);
+                if (pass == 0 || status == PPM_STATUS_OK) continue;
+                assert_int_equal(ppm_render_read_image(render, after, FLOATS), PPM_STATUS_OK);
+                assert_same_picture(before, after, true);
+            }
+        }
+        assert_int_equal(ppm_render_read_image(render, after, FLOATS), PPM_STATUS_OK);
+        ppm_render_destroy(render);
+        float *whole = render_picture(test.scene, &options, 3);
+        assert_same_picture(after, whole, true);
+        free(whole);
     }
 }
 
@@ -209,9 +302,10 @@ static void *cancel_soon(void *render)
 static void cancelling_from_a_thread_leaves_the_picture(void **state)
 {
     (void)state;
-    for (int32_t integrator = PPM_INTEGRATOR_SPPM; integrator <= PPM_INTEGRATOR_PATH;
-         integrator++) {
-        ppm_render_options options = render_options(integrator, 160, 1u << 18);
+    for (int32_t integrator = PPM_INTEGRATOR_SPPM; integrator <= PPM_INTEGRATOR_PPM; integrator++) {
+        ppm_render_options options = render_options(integrator, 160, 1u << 16);
+        /* each pass of ppm begins an epoch */
+        if (integrator == PPM_INTEGRATOR_PPM) options.photons_per_epoch = 1;
         options.threads = 2;
         const size_t floats = 4 * 160 * 160;
         ppm_render *render = NULL;
@@ -266,6 +360,8 @@ int main(void)
         WITH_SCENE(defaults_are_resolved),
         WITH_SCENE(a_scene_without_camera_and_light_gets_both),
         WITH_SCENE(the_same_seed_gives_the_same_bits_with_any_threads),
+        WITH_SCENE(fog_epochs_and_dispersion_are_the_same_with_any_threads),
+        WITH_SCENE(failing_memory_is_reported_in_fog_too),
         WITH_SCENE(passes_go_on_whether_the_picture_is_read_or_not),
         WITH_SCENE(statistics_count),
         WITH_SCENE(a_cancelled_session_stays_so),
