@@ -136,8 +136,9 @@ static void the_eye_sees_through_a_slab_what_is_left(void **state)
         const ppm_render_options options = render_options(i, 32, 1000);
         const test_mean mean = render_green(test.scene, &options, 8, SEEDS);
         mean_check_power(&mean, 0.005);
-        /* rays begin off their surfaces, by some millionths of the slab's width */
-        family_add_mean(&family, &mean, through, 2e-4 * through, "integrator %d", i);
+        /* rays begin off both faces by the bound of their rounding error, 24 ulps of 4 m: 2.3e-5 m
+         * less glass, of ln(1 / 0.4) / 0.25 m */
+        family_add_mean(&family, &mean, through, 1e-4 * through, "integrator %d", i);
     }
     family_check(&family);
 }
@@ -197,7 +198,8 @@ static void a_ball_gathers_the_light_that_falls_on_it(void **state)
         ppm_render_options options = caustic_options(64, 100000, 0.04f);
         options.integrator = i;
         const test_mean mean = render_means(test.scene, &options, 2, SEEDS, measure_window, &lens);
-        mean_check_power(&mean, 0.02); /* eye paths that are kept: pixels by one place each */
+        /* eye paths that are kept: pixels by one place each */
+        mean_check_power(&mean, i == PPM_INTEGRATOR_PPM ? 0.02 : 0.01);
         family_add_mean(&family, &mean, expected, 2e-3 * expected, "ball, integrator %d", i);
     }
     family_check(&family);

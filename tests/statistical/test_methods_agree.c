@@ -124,27 +124,6 @@ static void a_box_of_glass(void **state)
     methods_agree(scene, &how);
 }
 
-/* Coloured fog, a smooth glass ball in it, a wide lamp. In the fog too, balls of photons lose some
- * at the walls: within 2 cm, on a way of a metre and more. */
-static void a_foggy_box_with_a_glass_ball(void **state)
-{
-    (void)state;
-    add_lit_box();
-    ppm_scene *scene = test.scene;
-    scene_fog(scene, vec3(0.2f, 0.3f, 0.4f), vec3(0.1f, 0.05f, 0.0f), 0.5f);
-    shape_place_at(scene, shape_sphere(scene, material_glass(scene, 1.5f, 0.0f), 0.4f, 32, true),
-                   vec3(0.3f, -0.4f, -0.3f));
-    const method_comparison how = {.width = 60,
-                                   .path_passes = 64,
-                                   .passes = 6,
-                                   .photons = 10000,
-                                   .radius_m = 0.02f,
-                                   .bias = edge_bias,
-                                   .resolution = 0.15,
-                                   .seeds = 8};
-    methods_agree(scene, &how);
-}
-
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -152,7 +131,6 @@ int main(void)
         WITH_SCENE(a_box_of_plastic_and_rough_metal),
         WITH_SCENE(things_under_a_sky),
         WITH_SCENE(a_box_of_glass),
-        WITH_SCENE(a_foggy_box_with_a_glass_ball),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
