@@ -20,6 +20,7 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
     ppmi_walker_start(
         walker, ppmi_rng_start(job->options->seed, PPMI_STREAM_EYE, pass * pixel_count + pixel),
         seed, (uint32_t)pass, 0, sets);
+    walker->interior = job->around_camera;
     const float dx = ppmi_pixel_filter_offset(&job->filter, ppmi_walker_float(walker));
     const float dy = ppmi_pixel_filter_offset(&job->filter, ppmi_walker_float(walker));
     ppmi_vec2 lens = {0.0f, 0.0f};

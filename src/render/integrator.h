@@ -30,6 +30,7 @@ typedef struct ppmi_job {
     ppmi_camera_view view; /* of the whole picture */
     ppmi_pixel_filter filter;
     ppmi_film film;
+    ppmi_interior around_camera; /* solids that it stands in */
     const atomic_bool *cancel;
 } ppmi_job;
 

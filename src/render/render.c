@@ -5,6 +5,7 @@
 
 #include "photon/eye.h"
 #include "render/integrator.h"
+#include "transport/solid.h"
 
 struct ppm_render {
     ppm_context *context;
@@ -279,6 +280,7 @@ static ppm_status set_up_camera(ppm_render *render)
     ppmi_camera_view_init(&render->scene->cameras[options->camera - 1], options->width,
                           options->height, view);
     ppmi_pixel_filter_init(&render->job.filter, options->pixel_filter, options->pixel_filter_width);
+    render->job.around_camera = ppmi_solids_around(&render->job.world, view->origin);
     if (isinf(options->aperture_f_number)) return PPM_STATUS_OK;
     if (options->focus_distance_m == 0.0f) {
         if (!ppmi_distance_in_the_middle(&render->job.world, view, &options->focus_distance_m)) {

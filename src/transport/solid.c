@@ -121,3 +121,30 @@ void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *v
     }
     vertex->relative_index = index_at(behind, wavelength) / index_at(before, wavelength);
 }
+
+/* ---- where a path begins --------------------------------------------------------------------- */
+
+/* A solid whose first surface on the way is left there is one that the way began in. What is left
+ * last is entered first. */
+ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position)
+{
+    enum { MAX_SURFACES = 256 };
+    ppmi_interior around = {0}, seen = {0};
+    ppmi_ray ray = {.origin = position, .t_max = INFINITY, .direction = {0.0f, 1.0f, 0.0f}};
+    for (int i = 0; i < MAX_SURFACES; i++) {
+        ppmi_hit hit;
+        if (!ppmi_accel_intersect(world->accel, &ray, &hit)) break;
+        ppmi_surface surface;
+        ppmi_surface_from_hit(world->scene, &hit, &surface);
+        const uint32_t material = surface.primitive->material;
+        if (surface.material->is_solid_glass && !ppmi_interior_has(&seen, material)) {
+            ppmi_interior_enter(&seen, material);
+            if (!is_entered(&surface, ray.direction)) ppmi_interior_enter(&around, material);
+        }
+        ray = ppmi_surface_ray(&surface, ray.direction);
+    }
+    ppmi_interior ordered = {0};
+    for (uint32_t i = around.count; i > 0; i--)
+        ppmi_interior_enter(&ordered, around.materials[i - 1]);
+    return ordered;
+}

@@ -14,4 +14,8 @@ bool ppmi_solid_arrive(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *ve
  * the solids disperse. */
 void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *vertex);
 
+/* The solids around a point, for what begins there: a camera under water. Looked for upwards, since
+ * an open sheet of water has its inside below. */
+ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position);
+
 #endif

@@ -13,6 +13,7 @@ static const struct {
     float metallic, transmission, specular, ior;
     ppmi_vec3 color;
     bool is_thin, from_back;
+    float relative_index; /* 0: from ior */
 } kinds[KINDS] = {
     [KIND_LAMBERT] = {"lambert", 0, 0, 0, 1.5f, {0.8f, 0.5f, 0.2f}, false, false},
     [KIND_PLASTIC] = {"plastic", 0, 0, 1, 1.5f, {0.7f, 0.4f, 0.1f}, false, false},
@@ -26,6 +27,10 @@ static const struct {
     [KIND_HALF_GLASS] = {"half glass", 0.2f, 0.5f, 1, 1.33f, {0.9f, 0.7f, 0.4f}, false, false},
     [KIND_HALF_GLASS_INSIDE] =
         {"half glass from inside", 0, 0.5f, 1, 1.33f, {0.9f, 0.7f, 0.4f}, false, true},
+    [KIND_WATER_TO_GLASS] =
+        {"glass in water", 0, 1, 1, 1.5f, {1, 1, 1}, false, false, 1.5f / 1.33f},
+    [KIND_GLASS_TO_WATER] =
+        {"water around glass, from inside", 0, 1, 1, 1.5f, {1, 1, 1}, false, true, 1.33f / 1.5f},
 };
 
 const ppmi_albedo_table *bsdf_albedo(void)
@@ -52,6 +57,7 @@ void bsdf_make_case(int kind, float roughness, float cosine, bsdf_case *item, pp
                                         .specular_color = {1.0f, 1.0f, 1.0f},
                                         .transmission = kinds[kind].transmission,
                                         .is_thin = kinds[kind].is_thin,
+                                        .relative_index = kinds[kind].relative_index,
                                         .ns = up};
     const ppmi_surface surface = {.ng = up, .ns = up};
     const float sine = sqrtf(1.0f - cosine * cosine);

@@ -24,6 +24,8 @@ enum {
     KIND_THIN_GLASS,
     KIND_HALF_GLASS,
     KIND_HALF_GLASS_INSIDE,
+    KIND_WATER_TO_GLASS, /* nested solids: the index before the surface is not 1 */
+    KIND_GLASS_TO_WATER,
     KINDS
 };
 enum { ROUGHNESSES = 7, COSINES = 4 };

@@ -16,8 +16,12 @@ static ppmi_vec3 value(const bsdf_case *item, ppmi_vec3 wo, ppmi_vec3 wi, ppmi_t
 {
     const ppmi_vec3 up = vec3(0.0f, 0.0f, 1.0f);
     const ppmi_surface surface = {.ng = up, .ns = up};
+    ppmi_material_point point = item->point;
+    if (point.relative_index > 0.0f && (wo.z < 0.0f) != item->from_back) {
+        point.relative_index = 1.0f / point.relative_index;
+    }
     ppmi_bsdf bsdf;
-    ppmi_bsdf_make(bsdf_albedo(), &surface, &item->point, wo, &bsdf);
+    ppmi_bsdf_make(bsdf_albedo(), &surface, &point, wo, &bsdf);
     return ppmi_bsdf_eval(&bsdf, bsdf_albedo(), wi, PPMI_LOBE_ALL, transport);
 }
 

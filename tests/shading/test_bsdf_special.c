@@ -184,6 +184,71 @@ static void normals_seen_from_behind_are_bent(void **state)
     assert_near(vec3_length(bsdf.wo), 1.0, 1e-4);
 }
 
+/* A path that follows all branches carries what one that draws them carries in the mean. */
+static void branches_are_the_mean_of_draws(void **state)
+{
+    (void)state;
+    static const int kinds[] = {KIND_PLASTIC,    KIND_GLASS,      KIND_GLASS_INSIDE,
+                                KIND_THIN_GLASS, KIND_HALF_GLASS, KIND_WATER_TO_GLASS};
+    test_family family = {0};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        bsdf_case item;
+        ppmi_bsdf bsdf;
+        bsdf_make_case(kinds[k], 0.0f, 0.7f, &item, &bsdf);
+        ppmi_bsdf_sample branches[PPMI_BSDF_MAX_BRANCHES];
+        const uint32_t count =
+            ppmi_bsdf_branches(&bsdf, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE, branches);
+        assert_true(count >= 1);
+        double expected = 0.0;
+        for (uint32_t i = 0; i < count; i++) {
+            assert_true(branches[i].is_delta);
+            assert_near(vec3_length(branches[i].wi), 1.0, 1e-5);
+            expected += (double)branches[i].weight.y;
+        }
+        test_mean mean = {0};
+        ppmi_rng rng = ppmi_rng_start(k, PPMI_STREAM_EYE, 0);
+        for (uint32_t i = 0; i < TEST_EFFORT(20000); i++) {
+            ppmi_bsdf_sample sample;
+            const bool is_drawn = bsdf_draw(&bsdf, &rng, PPMI_TRANSPORT_RADIANCE, &sample);
+            mean_add(&mean, is_drawn && sample.is_delta ? (double)sample.weight.y : 0.0);
+        }
+        family_add_mean(&family, &mean, expected, 1e-5, "%s", item.name);
+    }
+    family_check(&family);
+}
+
+/* The scattering of a medium: sigma_s times the phase function, without a cosine or a normal. */
+static void a_point_in_a_medium_scatters_by_its_phase_function(void **state)
+{
+    (void)state;
+    const ppmi_medium medium = {.sigma_s = {0.5f, 0.3f, 0.1f}, .asymmetry_g = 0.6f};
+    const ppmi_vec3 wo = vec3_normalize(vec3(0.3f, -0.4f, 0.8f));
+    ppmi_bsdf bsdf;
+    ppmi_bsdf_make_phase(&medium, wo, &bsdf);
+    assert_int_equal(bsdf.lobes, PPMI_LOBE_PHASE);
+    assert_int_equal(bsdf.gather_lobes, PPMI_LOBE_PHASE);
+    assert_near(vec3_length(ppmi_bsdf_normal(&bsdf)), 0.0, 0.0);
+    ppmi_rng rng = ppmi_rng_start(8, PPMI_STREAM_EYE, 0);
+    test_mean forward = {0};
+    for (int i = 0; i < 5000; i++) {
+        ppmi_bsdf_sample sample;
+        assert_true(bsdf_draw(&bsdf, &rng, PPMI_TRANSPORT_RADIANCE, &sample));
+        const float cosine = vec3_dot(sample.wi, vec3_neg(wo));
+        const float phase = ppmi_phase(0.6f, cosine);
+        assert_near(sample.pdf, phase, 1e-3f * phase);
+        assert_near(ppmi_bsdf_pdf(&bsdf, sample.wi, PPMI_LOBE_ALL), phase, 1e-3f * phase);
+        const ppmi_vec3 f =
+            ppmi_bsdf_eval(&bsdf, bsdf_albedo(), sample.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER);
+        assert_near(f.x, 0.5f * phase, 1e-3f * phase);
+        assert_near(sample.weight.y, 0.3, 1e-6);
+        assert_near(ppmi_bsdf_cosine(&bsdf, sample.wi), 1.0, 0.0);
+        mean_add(&forward, (double)cosine);
+    }
+    test_family family = {0};
+    family_add_mean(&family, &forward, 0.6, 0.0, "mean cosine");
+    family_check(&family);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -196,6 +261,8 @@ int main(void)
         cmocka_unit_test(without_specular_a_surface_is_lambert),
         cmocka_unit_test(only_wide_lobes_gather),
         cmocka_unit_test(normals_seen_from_behind_are_bent),
+        cmocka_unit_test(branches_are_the_mean_of_draws),
+        cmocka_unit_test(a_point_in_a_medium_scatters_by_its_phase_function),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

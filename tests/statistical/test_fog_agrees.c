@@ -50,7 +50,7 @@ static void a_foggy_box_with_a_glass_ball(void **state)
                    vec3(0.3f, -0.4f, -0.3f));
     const method_comparison how = {.width = 60,
                                    .path_passes = 48,
-                                   .passes = 6,
+                                   .passes = 10,
                                    .photons = 20000,
                                    .radius_m = 0.05f,
                                    .bias = 0.025,

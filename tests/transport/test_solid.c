@@ -13,6 +13,7 @@
 #include "support/near.h"
 #include "support/renders.h"
 #include "support/scenes.h"
+#include "transport/solid.h"
 
 static test_scene test;
 static test_world world;
@@ -276,6 +277,26 @@ static void a_camera_in_water_sees_total_reflection(void **state)
 
 /* ---- glass on a table ------------------------------------------------------------------------ */
 
+static void what_stands_in_a_solid_is_known_to(void **state)
+{
+    (void)state;
+    add_box(solid(1.33f, 0), vec3_splat(-5), vec3_splat(5));
+    add_box(solid(1.5f, 0), vec3_splat(-1), vec3_splat(1));
+    add_quad(test.scene, solid(1.3f, 0), vec3(20, 0, 20), vec3(0, 0, 9), vec3(9, 0, 0));
+    world_open(&world, &test);
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(0.1f, -7, 0.2f)).count, 0);
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(0.1f, 7, 0.2f)).count, 0);
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(0.1f, -3, 0.2f)).count, 1);
+    const ppmi_interior both = ppmi_solids_around(&world.world, vec3(0.1f, 0.3f, 0.2f));
+    assert_int_equal(both.count, 2);
+    /* the inner one counts, as the one that was entered last */
+    assert_near(test.scene->materials[ppmi_interior_material(&both, test.scene)].desc.ior, 1.5,
+                1e-6);
+    /* under an open sheet and above it */
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(24, -1, 24)).count, 1);
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(24, 1, 24)).count, 0);
+}
+
 /* Rays down through the glass end on the table below it, in optical contact, wherever the faces lie
  * by rounding; rays up from the table are in the glass. */
 static void check_table(float glass_low, ppmi_vec3 moved)
@@ -421,6 +442,7 @@ int main(void)
         WITH_SCENE(a_low_priority_inside_a_high_one_is_not_seen),
         WITH_SCENE(an_open_sheet_has_water_on_one_side),
         WITH_SCENE(a_camera_in_water_sees_total_reflection),
+        WITH_SCENE(what_stands_in_a_solid_is_known_to),
         WITH_SCENE(a_glass_on_a_table_does_not_leak),
         WITH_SCENE(a_lamp_inside_coloured_glass_is_dimmed),
         WITH_SCENE(a_thing_inside_coloured_glass_is_lit_through_it),

@@ -1,0 +1,57 @@
+#!/bin/sh
+# Renders the pictures of docs/gallery.md beside this script, with the statistics that the page quotes
+# in out/gallery/. Takes a quarter of an hour; wants a release build and an idle machine.
+#
+#   docs/gallery/render.sh          all
+#   docs/gallery/render.sh prism    those whose names begin with prism
+set -eu
+cd "$(dirname "$0")/../.."
+program=${PPM_RENDER:-build/release/bin/ppm-render}
+wanted=${1-}
+mkdir -p out/gallery
+
+# render NAME OPTION...: one picture
+render() {
+    name=$1
+    shift
+    case $name in
+    "$wanted"*) ;;
+    *) return 0 ;;
+    esac
+    echo "$name: ppm-render $*"
+    "$program" -q -o "docs/gallery/$name.jpg" --stats "out/gallery/$name.json" "$@"
+}
+
+# scene NAME SIZE SMALL_SIZE OPTION...: the large picture, and one small one by each integrator
+scene() {
+    name=$1 size=$2 small=$3
+    shift 3
+    render "$name" "sample_scenes/$name.glb" -s "$size" -t 30 "$@"
+    for integrator in ppm sppm path; do
+        render "${name}_$integrator" "sample_scenes/$name.glb" -s "$small" -t 6 -i "$integrator" "$@"
+    done
+}
+
+scene caustic_box 512x512 256x256
+scene ceramic_box 640x512 256x205
+scene pool 720x480 256x171
+scene glass_of_water 512x512 256x256
+scene glass_table 640x480 256x192
+scene enclosed_lamp 640x480 256x192
+scene prism 720x450 256x160
+scene mirrors 720x480 256x171 --max-depth 64
+scene interior 720x450 256x160
+scene fog_ball 720x405 256x144 --fog 0.1,0
+
+# The methods side by side, for the same time.
+render methods_map sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --alpha 1 --radius 0.02
+render methods_ppm sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm
+render methods_photons sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --direct photons \
+    --photons-per-epoch 1M
+render methods_epochs sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --photons-per-epoch 1M
+render methods_sppm sample_scenes/caustic_box.glb -s 256x256 -t 15
+render methods_path sample_scenes/caustic_box.glb -s 256x256 -t 15 -i path
+
+# What else the camera and the sky do.
+render lens sample_scenes/glass_table.glb -s 480x360 -t 20 --aperture 0.5 --focus Marble
+render sun sample_scenes/pool.glb -s 480x320 -t 20 --sun 40,150 --exposure -13
