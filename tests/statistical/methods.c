@@ -65,7 +65,9 @@ static void compare_block(test_family *family, const test_mean *path, const test
                p_student(fmax(0.0, off - bias * path->mean) / error, (double)path->count - 1.0),
                "%s, block %u, channel %u: paths %.5g, photons %.5g, error %.2g", name, value / 3,
                value % 3, path->mean, photons->mean, error);
-    if (!(off <= 0.02 * path->mean + 3.0 * error)) {
+    /* a standard error by the few seeds of a slow build is too uncertain for a rule of its own */
+    const bool is_certain = TEST_EFFORT_PERCENT >= 100;
+    if (is_certain && !(off <= 0.02 * path->mean + 3.0 * error)) {
         fail_msg("%s, block %u, channel %u: paths %.5g, photons %.5g are more than 2 %% apart "
                  "(error %.2g)",
                  name, value / 3, value % 3, path->mean, photons->mean, error);
