@@ -1,6 +1,6 @@
 #!/bin/sh
 # Renders the pictures of docs/gallery.md beside this script, with the statistics that the page quotes
-# in out/gallery/. Takes a quarter of an hour; wants a release build and an idle machine.
+# in out/gallery/. Takes ten minutes; wants a release build and an idle machine.
 #
 #   docs/gallery/render.sh          all
 #   docs/gallery/render.sh prism    those whose names begin with prism
@@ -12,23 +12,23 @@ mkdir -p out/gallery
 
 # render NAME OPTION...: one picture
 render() {
-    name=$1
+    picture=$1
     shift
-    case $name in
+    case $picture in
     "$wanted"*) ;;
     *) return 0 ;;
     esac
-    echo "$name: ppm-render $*"
-    "$program" -q -o "docs/gallery/$name.jpg" --stats "out/gallery/$name.json" "$@"
+    echo "$picture: ppm-render $*"
+    "$program" -q -o "docs/gallery/$picture.jpg" --stats "out/gallery/$picture.json" "$@"
 }
 
 # scene NAME SIZE SMALL_SIZE OPTION...: the large picture, and one small one by each integrator
 scene() {
-    name=$1 size=$2 small=$3
+    scene_name=$1 size=$2 small=$3
     shift 3
-    render "$name" "sample_scenes/$name.glb" -s "$size" -t 30 "$@"
+    render "$scene_name" "sample_scenes/$scene_name.glb" -s "$size" -t 25 "$@"
     for integrator in ppm sppm path; do
-        render "${name}_$integrator" "sample_scenes/$name.glb" -s "$small" -t 6 -i "$integrator" "$@"
+        render "${scene_name}_$integrator" "sample_scenes/$scene_name.glb" -s "$small" -t 5 -i "$integrator" "$@"
     done
 }
 
@@ -44,14 +44,14 @@ scene interior 720x450 256x160
 scene fog_ball 720x405 256x144 --fog 0.1,0
 
 # The methods side by side, for the same time.
-render methods_map sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --alpha 1 --radius 0.02
-render methods_ppm sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm
-render methods_photons sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --direct photons \
+render methods_map sample_scenes/caustic_box.glb -s 256x256 -t 12 -i ppm --alpha 1 --radius 0.02
+render methods_ppm sample_scenes/caustic_box.glb -s 256x256 -t 12 -i ppm
+render methods_photons sample_scenes/caustic_box.glb -s 256x256 -t 12 -i ppm --direct photons \
     --photons-per-epoch 1M
-render methods_epochs sample_scenes/caustic_box.glb -s 256x256 -t 15 -i ppm --photons-per-epoch 1M
-render methods_sppm sample_scenes/caustic_box.glb -s 256x256 -t 15
-render methods_path sample_scenes/caustic_box.glb -s 256x256 -t 15 -i path
+render methods_epochs sample_scenes/caustic_box.glb -s 256x256 -t 12 -i ppm --photons-per-epoch 1M
+render methods_sppm sample_scenes/caustic_box.glb -s 256x256 -t 12
+render methods_path sample_scenes/caustic_box.glb -s 256x256 -t 12 -i path
 
 # What else the camera and the sky do.
-render lens sample_scenes/glass_table.glb -s 480x360 -t 20 --aperture 0.5 --focus Marble
-render sun sample_scenes/pool.glb -s 480x320 -t 20 --sun 40,150 --exposure -13
+render lens sample_scenes/glass_table.glb -s 480x360 -t 15 --aperture 0.5 --focus Marble
+render sun sample_scenes/pool.glb -s 480x320 -t 15 --sun 40,150 --exposure -13
