@@ -100,7 +100,8 @@ static const option_row rows[] = {
     {"photons", 'p', VALUE_COUNT, FIELD(photons), .least = 1, .most = UINT64_C(1) << 40,
      .argument = "N",
      .help = "photons per pass; k and M stand for 1024 and 1024^2\n"
-             "(default: the number of pixels, within 256k .. 4M)"},
+             "(default: the number of pixels, within 256k .. 4M; sppm takes\n"
+             "fewer where aimed ones do as much)"},
     {"radius", 0, VALUE_REAL, FIELD(radius_m), .low = 1e-9, .high = 1e9, .argument = "R",
      .help = "first gather radius in metres (default: a few pixels wide)"},
     {"alpha", 0, VALUE_REAL, FIELD(alpha), .low = 1e-6, .high = 1.0, .argument = "A",
