@@ -124,7 +124,7 @@ void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
 
 ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons)
 {
-    const double most = 16.0; /* a pilot says little about what it hardly found */
+    const double most = 3.0; /* dim places gain less than the mean, and must not starve */
     const ppmi_photon_walk walk = walk_of(job, photons, pilot_pass(job, 0));
     double gain;
     const ppm_status status =
