@@ -24,10 +24,27 @@ enum {
     PPM_TRANSMISSION_POLICY_THIN = 2   /* every one is a thin sheet */
 };
 
+/* A time, or a shutter's, in the seconds of the file's animations. */
+typedef struct ppm_pose {
+    uint32_t is_animated;  /* 0: the pose that the nodes have without animation; the rest is not
+                              read */
+    double open_s;         /* when the shutter opens */
+    double close_s;        /* when it closes; equal to open_s: nothing is blurred */
+    uint32_t motion_steps; /* times at which what moves is looked at, both ends among them; 0: 2 */
+} ppm_pose;
+
 typedef struct ppm_import_options {
     uint32_t size;        /* sizeof(ppm_import_options) */
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
+
+    const char *scene;      /* the scene's name, or its number from 0; NULL: the file's default */
+    const char *variant;    /* a name of KHR_materials_variants; NULL: the plain materials */
+    const char *animation;  /* a name, or NULL: all at once */
+    uint32_t allow_outside; /* non-zero: files outside of the asset's folder may be read */
+    uint32_t strict;        /* non-zero: a feature that is ignored makes the file an error,
+                               INPUT_UNSUPPORTED, after all such features have been reported */
+    ppm_pose pose;          /* when; all 0: the static pose of the file */
 } ppm_import_options;
 
 /* Reads path (.gltf, .glb, .obj; the ending decides, letter case does not matter) into scene, which

@@ -2,6 +2,7 @@
 #ifndef PPM_PPM_H
 #define PPM_PPM_H
 
+#include "ppm/asset.h"
 #include "ppm/color.h"
 #include "ppm/context.h"
 #include "ppm/export.h"

@@ -9,8 +9,8 @@
  *   directional lights in lux, all on one photometric scale;
  *   ids start at 1; 0 is "none".
  * All arrays and strings that a desc points to are copied; the caller keeps its own.
- * Threads: one thread builds a scene at a time. Once a render session has been made from a scene,
- * the scene is frozen: adding to it returns WRONG_STATE, reading is free from any thread. */
+ * Threads: one thread builds a scene at a time. While a render session of a scene is alive, the
+ * scene is frozen: adding to it returns WRONG_STATE, reading is free from any thread. */
 #ifndef PPM_SCENE_H
 #define PPM_SCENE_H
 
@@ -127,6 +127,43 @@ typedef struct ppm_material_desc {
     int32_t alpha_mode;    /* PPM_ALPHA_ */
     float alpha_cutoff;    /* for MASK; default 0.5 */
     uint32_t double_sided; /* 0: the back is not seen by the camera and does not emit; default 1 */
+
+    float clearcoat;                         /* KHR_materials_clearcoat, 0..1; default 0 */
+    ppm_texture clearcoat_texture;           /* R */
+    float clearcoat_roughness;               /* perceptual, 0..1; default 0 */
+    ppm_texture clearcoat_roughness_texture; /* G */
+    ppm_texture clearcoat_normal_texture;    /* tangent space, of the coat alone */
+    float clearcoat_normal_scale;            /* default 1 */
+
+    float sheen_color[3];                /* KHR_materials_sheen, 0..1; default 0 */
+    ppm_texture sheen_color_texture;     /* RGB */
+    float sheen_roughness;               /* perceptual, 0..1; default 0 */
+    ppm_texture sheen_roughness_texture; /* A */
+
+    float iridescence;                         /* KHR_materials_iridescence, 0..1; default 0 */
+    ppm_texture iridescence_texture;           /* R */
+    float iridescence_ior;                     /* of the film; default 1.3 */
+    float iridescence_thickness_min_nm;        /* where the texture is 0; default 100 */
+    float iridescence_thickness_max_nm;        /* where it is 1, or without one; default 400 */
+    ppm_texture iridescence_thickness_texture; /* G */
+
+    float anisotropy;               /* KHR_materials_anisotropy: strength, 0..1; default 0 */
+    float anisotropy_rotation_rad;  /* of the direction, from the tangent, counter-clockwise */
+    ppm_texture anisotropy_texture; /* RG direction in -1..1, B strength */
+
+    float diffuse_transmission;                     /* KHR_materials_diffuse_transmission, 0..1 */
+    ppm_texture diffuse_transmission_texture;       /* A */
+    float diffuse_transmission_color[3];            /* default 1 1 1 */
+    ppm_texture diffuse_transmission_color_texture; /* RGB */
+
+    float multiscatter_color[3]; /* KHR_materials_volume_scatter (draft): albedo of the medium
+                                    inside after all scattering, 0..1; default 0: no scattering */
+    float scatter_anisotropy_g;  /* Henyey-Greenstein's mean cosine, -1 < g < 1; default 0 */
+
+    float retroreflection;               /* KHR_materials_retroreflection (draft): the share of the
+                                            specular reflection that goes back where the light came
+                                            from, 0..1; default 0 */
+    ppm_texture retroreflection_texture; /* R */
 } ppm_material_desc;
 
 /* Fills in the defaults and size. */
@@ -141,7 +178,18 @@ PPM_API ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_d
 
 enum { PPM_MAX_UV_SETS = 8 };
 
-/* One indexed triangle list with one material. */
+enum {
+    PPM_PRIMITIVE_TRIANGLES = 0,
+    PPM_PRIMITIVE_POINTS = 1, /* balls of radius_m */
+    PPM_PRIMITIVE_LINES = 2   /* round segments of radius_m */
+};
+enum { PPM_MAX_MOTION_STEPS = 129 };
+
+/* One indexed list of triangles, points or segments with one material.
+ *
+ * Motion: with motion_steps > 1, positions, normals and tangents each hold that many blocks of
+ * vertex_count elements, one after the other: the vertices at even times from the opening of the
+ * shutter to its closing, between which they move on straight lines. */
 typedef struct ppm_primitive_desc {
     uint32_t vertex_count;
     uint32_t triangle_count;
@@ -153,6 +201,12 @@ typedef struct ppm_primitive_desc {
     const uint32_t *indices;           /* 3 * triangle_count, each < vertex_count,
                                           counter-clockwise from outside */
     ppm_material_id material;          /* 0: a grey default */
+    uint32_t motion_steps;             /* 0 and 1: at rest; up to PPM_MAX_MOTION_STEPS */
+    int32_t kind;                      /* PPM_PRIMITIVE_; for all but triangles triangle_count is 0
+                                          and indices has element_count entries (points) or
+                                          2 * element_count (lines) */
+    uint32_t element_count;
+    float radius_m; /* of points and lines, object space, > 0 */
 } ppm_primitive_desc;
 
 typedef struct ppm_mesh_desc {
@@ -173,13 +227,36 @@ typedef struct ppm_instance_desc {
     uint32_t size;    /* sizeof(ppm_instance_desc) */
     const char *name; /* may be NULL */
     ppm_mesh_id mesh;
-    float transform[16]; /* mirrored ones (negative determinant) are fine */
+    float transform[16];   /* mirrored ones (negative determinant) are fine */
+    uint32_t motion_steps; /* 0 and 1: at rest; up to PPM_MAX_MOTION_STEPS */
+    const float *motion;   /* 16 * motion_steps, in place of transform: at even times from the
+                              opening of the shutter to its closing; or NULL */
 } ppm_instance_desc;
 
 /* Returns OK, INVALID_ARGUMENT (unknown mesh, a transform that is not finite), OUT_OF_MEMORY,
  * WRONG_STATE. A singular transform is dropped with a warning; *out_id is then 0. */
 PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,
                                           ppm_instance_id *out_id);
+
+/* ---- changes between frames ------------------------------------------------------------------ */
+
+/* What follows changes what has been added, between two renders: it returns WRONG_STATE while a
+ * render session of the scene is alive, INVALID_ARGUMENT for an unknown id or a value that adding
+ * would refuse, and OUT_OF_MEMORY. What does not change keeps its acceleration structure for the
+ * next session. */
+
+/* A new transform, or motion, as in ppm_instance_desc; name and mesh of desc are not used. */
+PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
+                                          const ppm_instance_desc *desc);
+/* Whether the instance is there at all; it is when added. */
+PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
+                                                  uint32_t is_visible);
+/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc; its
+ * vertex_count must be what it was, all else is not used. */
+PPM_API ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
+                                               const ppm_primitive_desc *desc);
+PPM_API ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,
+                                          const ppm_material_desc *desc);
 
 PPM_API uint32_t ppm_scene_instance_count(const ppm_scene *scene);
 /* The name of an instance, never NULL for a valid id; NULL otherwise. Several may have the same.
@@ -207,6 +284,8 @@ typedef struct ppm_camera_desc {
     float f_number;         /* perspective: focal length by aperture, for a sensor whose longer side
                                is 36 mm; 0: a pinhole, all in focus */
     float focus_distance_m; /* along the axis; 0: not said */
+    uint32_t motion_steps;  /* as in ppm_instance_desc */
+    const float *motion;
 } ppm_camera_desc;
 
 PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
@@ -223,6 +302,9 @@ PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera
  * no instance. */
 PPM_API ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect,
                                                 ppm_camera_id *out_id);
+/* Replaces a camera, as the calls under "changes between frames" do. */
+PPM_API ppm_status ppm_scene_set_camera(ppm_scene *scene, ppm_camera_id id,
+                                        const ppm_camera_desc *desc);
 /* The aspect that a camera's file asks for, or 0. */
 PPM_API float ppm_scene_camera_aspect(const ppm_scene *scene, ppm_camera_id id);
 
@@ -246,6 +328,10 @@ typedef struct ppm_light_desc {
 
 PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
                                        ppm_light_id *out_id);
+
+/* Replaces a light, as the calls under "changes between frames" do. */
+PPM_API ppm_status ppm_scene_set_light(ppm_scene *scene, ppm_light_id id,
+                                       const ppm_light_desc *desc);
 
 /* The surroundings: a radiance for every direction. */
 typedef struct ppm_environment_desc {

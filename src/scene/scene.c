@@ -110,6 +110,11 @@ void ppm_material_desc_init(ppm_material_desc *desc)
         .attenuation_color = {1.0f, 1.0f, 1.0f},
         .alpha_cutoff = 0.5f,
         .double_sided = 1,
+        .clearcoat_normal_scale = 1.0f,
+        .iridescence_ior = 1.3f,
+        .iridescence_thickness_min_nm = 100.0f,
+        .iridescence_thickness_max_nm = 400.0f,
+        .diffuse_transmission_color = {1.0f, 1.0f, 1.0f},
     };
 }
 
