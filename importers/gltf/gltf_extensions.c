@@ -13,6 +13,8 @@ static const struct {
     int32_t verdict;
     const char *note;
 } rows[] = {
+    {"EXT_materials_retroreflection", PPM_FEATURE_HONOURED,
+     "as KHR_materials_retroreflection, which it became"},
     {"EXT_mesh_gpu_instancing", PPM_FEATURE_HONOURED, ""},
     {"EXT_meshopt_compression", PPM_FEATURE_IGNORED,
      "the geometry is compressed; write the file without mesh compression"},
@@ -20,21 +22,32 @@ static const struct {
     {"KHR_draco_mesh_compression", PPM_FEATURE_IGNORED,
      "the geometry is compressed; write the file without mesh compression"},
     {"KHR_lights_punctual", PPM_FEATURE_HONOURED, ""},
+    {"KHR_materials_anisotropy", PPM_FEATURE_HONOURED, ""},
+    {"KHR_materials_clearcoat", PPM_FEATURE_HONOURED, ""},
+    {"KHR_materials_diffuse_transmission", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_dispersion", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_emissive_strength", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_ior", PPM_FEATURE_HONOURED, ""},
+    {"KHR_materials_iridescence", PPM_FEATURE_HONOURED, ""},
+    {"KHR_materials_pbrSpecularGlossiness", PPM_FEATURE_HONOURED,
+     "as a dielectric whose reflectance along the normal is the specular colour"},
+    {"KHR_materials_retroreflection", PPM_FEATURE_HONOURED, "the draft of 2026"},
+    {"KHR_materials_sheen", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_specular", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_transmission", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_unlit", PPM_FEATURE_APPROXIMATED,
      "such a material shines with its base colour, 1 nit for white, and reflects nothing"},
+    {"KHR_materials_variants", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_volume", PPM_FEATURE_HONOURED,
      "the true distance through the solid counts; thicknessTexture is not used"},
+    {"KHR_materials_volume_scatter", PPM_FEATURE_HONOURED, "the draft of 2025"},
     {"KHR_mesh_quantization", PPM_FEATURE_HONOURED, ""},
     {"KHR_meshopt_compression", PPM_FEATURE_IGNORED,
      "the geometry is compressed; write the file without mesh compression"},
     {"KHR_texture_basisu", PPM_FEATURE_IGNORED,
      "the textures are KTX2 files; write them as PNG, JPEG or WebP"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
+    {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet; no effect on the picture"},
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 

@@ -42,7 +42,8 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
                  {PPMI_GLTF_TEXTURES, d->texture_count},
                  {PPMI_GLTF_SAMPLERS, d->sampler_count},
                  {PPMI_GLTF_CAMERAS, d->camera_count},
-                 {PPMI_GLTF_LIGHTS, d->light_count}};
+                 {PPMI_GLTF_LIGHTS, d->light_count},
+                 {PPMI_GLTF_VARIANTS, d->variant_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,
@@ -123,6 +124,7 @@ static ppm_status run(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
@@ -150,7 +152,7 @@ ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *
                             const ppm_import_options *options)
 {
     ppmi_gltf_reader reader = {
-        .context = context, .scene = scene, .options = options, .path = path};
+        .context = context, .scene = scene, .options = options, .path = path, .variant = -1};
     if (options->light_units < PPM_LIGHT_UNITS_AUTO || options->light_units > PPM_LIGHT_UNITS_RAW ||
         options->transmission < PPM_TRANSMISSION_POLICY_AUTO ||
         options->transmission > PPM_TRANSMISSION_POLICY_THIN) {

@@ -154,7 +154,8 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     if (status != PPM_STATUS_OK) return status;
     if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
     ppmi_gltf_place(inner, "%s.material", place);
-    return ppmi_gltf_use_material(reader, primitive->material, inner, &g->material);
+    return ppmi_gltf_use_material(reader, ppmi_gltf_variant_material(reader, primitive), inner,
+                                  &g->material);
 }
 
 static void describe(const ppmi_gltf_geometry *g, ppm_primitive_desc *out)

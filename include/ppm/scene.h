@@ -164,6 +164,11 @@ typedef struct ppm_material_desc {
                                             specular reflection that goes back where the light came
                                             from, 0..1; default 0 */
     ppm_texture retroreflection_texture; /* R */
+
+    uint32_t roughness_is_glossiness; /* non-zero: roughness is a glossiness, and A of
+                                         metallic_roughness_texture multiplies it. The perceptual
+                                         roughness is 1 less the product, and nothing multiplies
+                                         metallic (KHR_materials_pbrSpecularGlossiness) */
 } ppm_material_desc;
 
 /* Fills in the defaults and size. */
