@@ -152,7 +152,7 @@ ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *
                             const ppm_import_options *options)
 {
     ppmi_gltf_reader reader = {
-        .context = context, .scene = scene, .options = options, .path = path, .variant = -1};
+        .context = context, .scene = scene, .options = options, .path = path};
     if (options->light_units < PPM_LIGHT_UNITS_AUTO || options->light_units > PPM_LIGHT_UNITS_RAW ||
         options->transmission < PPM_TRANSMISSION_POLICY_AUTO ||
         options->transmission > PPM_TRANSMISSION_POLICY_THIN) {

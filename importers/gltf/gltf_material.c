@@ -128,6 +128,7 @@ static void convert_unlit(conversion *c)
     ppm_material_desc *desc = &c->desc;
     memcpy(desc->emission, desc->base_color, sizeof desc->emission);
     desc->emission_texture = desc->base_color_texture;
+    desc->emission_takes_vertex_color = 1;
     memset(desc->base_color, 0, sizeof desc->emission);
     desc->metallic = 0.0f;
     desc->roughness = 1.0f;
@@ -135,8 +136,8 @@ static void convert_unlit(conversion *c)
     desc->normal_texture = (ppm_texture){0};
     desc->specular = 0.0f;
     ppmi_gltf_note_feature(c->reader, "KHR_materials_unlit", PPM_FEATURE_APPROXIMATED,
-                           "such a material shines with its base colour, 1 nit for white, without "
-                           "vertex colours, and reflects nothing");
+                           "such a material shines with its base colour, 1 nit for white, and "
+                           "reflects nothing");
 }
 
 /* The extensions exclude each other where they are not called for one material. */

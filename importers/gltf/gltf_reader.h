@@ -56,7 +56,7 @@ struct ppmi_gltf_reader {
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
     ppm_material_id default_material; /* 0: not added yet */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
-    int32_t variant;                  /* that is shown; -1: the plain materials */
+    uint32_t variant;                 /* that is shown, from 1; 0: the plain materials */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
     ppmi_gltf_report report;

@@ -40,6 +40,7 @@ void ppmi_gltf_note_feature(ppmi_gltf_reader *reader, const char *name, int32_t 
 {
     ppmi_gltf_report *report = &reader->report;
     ppmi_gltf_feature *feature = find(report, name);
+    if (!reader->context) return; /* a reader that is silent for a while */
     if (feature && feature->verdict > verdict) return;
     if (!feature) feature = add(reader->context, report, name);
     char *copy = feature ? ppmi_string_copy(reader->context, note) : NULL;

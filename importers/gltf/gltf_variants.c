@@ -42,11 +42,11 @@ ppm_status ppmi_gltf_choose_variant(ppmi_gltf_reader *reader)
     const ppmi_gltf_document *document = reader->document;
     const char *wanted = reader->options->variant;
     char names[400], note[512];
-    reader->variant = -1;
-    for (size_t i = 0; wanted && i < document->variant_count && reader->variant < 0; ++i) {
-        if (strcmp(document->variants[i], wanted) == 0) reader->variant = (int32_t)i;
+    reader->variant = 0;
+    for (size_t i = 0; wanted && i < document->variant_count && reader->variant == 0; ++i) {
+        if (strcmp(document->variants[i], wanted) == 0) reader->variant = (uint32_t)i + 1;
     }
-    if (wanted && reader->variant < 0) return refuse(reader, wanted);
+    if (wanted && reader->variant == 0) return refuse(reader, wanted);
     if (document->variant_count == 0) return PPM_STATUS_OK;
     if (wanted) {
         snprintf(note, sizeof note, "'%.64s' is shown", wanted);
@@ -62,10 +62,10 @@ ppm_status ppmi_gltf_choose_variant(ppmi_gltf_reader *reader)
 int32_t ppmi_gltf_variant_material(const ppmi_gltf_reader *reader,
                                    const ppmi_gltf_primitive *primitive)
 {
-    for (uint32_t i = 0; reader->variant >= 0 && i < primitive->mapping_count; ++i) {
+    for (uint32_t i = 0; reader->variant > 0 && i < primitive->mapping_count; ++i) {
         const ppmi_gltf_mapping *mapping = &primitive->mappings[i];
         for (uint32_t k = 0; k < mapping->variant_count; ++k) {
-            if (mapping->variants[k] == reader->variant) return mapping->material;
+            if (mapping->variants[k] == (int32_t)reader->variant - 1) return mapping->material;
         }
     }
     return primitive->material;

@@ -169,6 +169,8 @@ typedef struct ppm_material_desc {
                                          metallic_roughness_texture multiplies it. The perceptual
                                          roughness is 1 less the product, and nothing multiplies
                                          metallic (KHR_materials_pbrSpecularGlossiness) */
+    uint32_t emission_takes_vertex_color; /* non-zero: vertex colours multiply the emission, as they
+                                             do base_color (KHR_materials_unlit) */
 } ppm_material_desc;
 
 /* Fills in the defaults and size. */

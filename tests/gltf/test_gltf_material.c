@@ -112,6 +112,7 @@ static void an_unlit_material_shines_with_its_base_colour(void **state)
     assert_values(&m->metallic, 1, (const float[]){0});
     assert_values(&m->specular, 1, (const float[]){0});
     assert_int_equal(m->emission_texture.image, m->base_color_texture.image);
+    assert_int_not_equal(m->emission_takes_vertex_color, 0);
     assert_gltf_logged(f, 'I', "KHR_materials_unlit");
 }
 
