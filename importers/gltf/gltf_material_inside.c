@@ -1,5 +1,7 @@
 /* What lets light to the other side, and what is there: KHR_materials_transmission, _volume,
  * _dispersion, _diffuse_transmission, and the draft _volume_scatter. */
+#include <math.h>
+
 #include "gltf/gltf_material.h"
 
 /* Henyey and Greenstein's function is a pulse at 1 and at -1, which the draft excludes. */
@@ -51,6 +53,25 @@ static void convert_diffuse_transmission(ppmi_gltf_conversion *c)
                           &desc->diffuse_transmission_color_texture);
 }
 
+/* A picture of the surface cannot say what is where inside: its mean does for all of it. */
+static void convert_medium_color(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_scattering *from = &c->from->scattering;
+    ppm_texture texture = {0};
+    float mean[4];
+    ppmi_gltf_set(c, "KHR_materials_volume_scatter.multiscatterColorFactor",
+                  from->multiscatter_color, 3, 0.0, 1.0, c->desc.multiscatter_color);
+    ppmi_gltf_set_texture(c, "KHR_materials_volume_scatter.multiscatterColorTexture",
+                          &from->multiscatter_color_texture, PPM_IMAGE_COLOR, &texture);
+    if (ppm_scene_image_mean(c->reader->scene, texture.image, mean) != PPM_STATUS_OK) return;
+    for (int i = 0; i < 3; ++i) {
+        c->desc.multiscatter_color[i] *= fminf(fmaxf(mean[i], 0.0f), 1.0f);
+    }
+    ppmi_gltf_note_feature(c->reader, "KHR_materials_volume_scatter", PPM_FEATURE_APPROXIMATED,
+                           "the medium inside is the same everywhere, of the mean of "
+                           "multiscatterColorTexture");
+}
+
 static void convert_volume(ppmi_gltf_conversion *c)
 {
     const ppmi_gltf_material *from = c->from;
@@ -60,16 +81,10 @@ static void convert_volume(ppmi_gltf_conversion *c)
                   desc->attenuation_color);
     ppmi_gltf_set(c, "KHR_materials_volume.attenuationDistance", &from->attenuation_distance, 1,
                   0.0, PPMI_GLTF_HUGE, &desc->attenuation_distance_m);
-    ppmi_gltf_set(c, "KHR_materials_volume_scatter.multiscatterColorFactor",
-                  scattering->multiscatter_color, 3, 0.0, 1.0, desc->multiscatter_color);
+    convert_medium_color(c);
     ppmi_gltf_set(c, "KHR_materials_volume_scatter.scatterAnisotropy",
                   &scattering->scatter_anisotropy, 1, -MAX_SCATTER_ANISOTROPY,
                   MAX_SCATTER_ANISOTROPY, &desc->scatter_anisotropy_g);
-    if (scattering->multiscatter_color_texture.texture >= 0) {
-        ppmi_gltf_note_feature(c->reader, "KHR_materials_volume_scatter", PPM_FEATURE_APPROXIMATED,
-                               "multiscatterColorTexture is not used: the medium inside is the "
-                               "same everywhere, of multiscatterColorFactor");
-    }
 }
 
 void ppmi_gltf_convert_inside(ppmi_gltf_conversion *c)

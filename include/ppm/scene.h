@@ -69,6 +69,10 @@ typedef struct ppm_image_desc {
 PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *desc,
                                        ppm_image_id *out_id);
 
+/* The mean of an image's pixels: linear Rec.709 for PPM_IMAGE_COLOR, and alpha, 1 without. Returns
+ * OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float out_rgba[4]);
+
 enum { PPM_WRAP_REPEAT = 0, PPM_WRAP_CLAMP = 1, PPM_WRAP_MIRROR = 2 };
 enum { PPM_FILTER_LINEAR = 0, PPM_FILTER_NEAREST = 1 };
 

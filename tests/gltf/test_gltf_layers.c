@@ -1,7 +1,9 @@
 /* importers/gltf/gltf_material_layers.c, gltf_material_inside.c, and the textures of every slot */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "imageio/imageio.h"
 #include "material_fixture.h"
 
 /* ---- values ---------------------------------------------------------------------------------- */
@@ -90,12 +92,44 @@ static void scattering_is_read_under_both_names_of_its_colour(void **state)
     }
 }
 
-static void a_texture_of_the_medium_is_told_to_be_left_out(void **state)
+/* sRGB 188 is 0.5029. */
+static void a_texture_of_the_medium_gives_its_mean_colour(void **state)
 {
+    static const float pixels[6] = {1.0f, 0.0f, 0.0f, 0.0f, 188.0f / 255.0f, 1.0f};
     gltf_fixture *f = *state;
-    import_material(f, "x",
-                    SCATTER("multiscatterColorFactor", ",'multiscatterColorTexture':{'index':0}"));
-    assert_gltf_logged(f, 'I', "approximated: KHR_materials_volume_scatter: multiscatterColorTex");
+    const ppmi_image_file file = {
+        .width = 2, .height = 1, .channels = 3, .pixels = pixels, .store = PPMI_STORE_U8};
+    assert_int_equal(ppmi_imageio_write_file(f->context, gltf_path(f, "sub/two.png"), &file),
+                     PPM_STATUS_OK);
+    assert_gltf_status(
+        f,
+        gltf_import(
+            f,
+            "{" GLTF_HEAD "'nodes':[{'mesh':0}],'materials':[{" SCATTER(
+                "multiscatterColorFactor",
+                ",'multiscatterColorTexture':{'index':0}") "}],'textures':[{'source':0}],"
+                                                           "'images':[{'uri':'two.png'}],"
+                                                           "'meshes':[{'primitives':[{'attributes':"
+                                                           "{'POSITION':0},'material':0}]}],"
+                                                           "'accessors':[{'componentType':5126,'"
+                                                           "count':3,'type':'VEC3','sparse':{"
+                                                           "'count':1,'indices':{'bufferView':0,'"
+                                                           "componentType':5121},"
+                                                           "'values':{'bufferView':1}}}],'"
+                                                           "bufferViews':[{'buffer':0,'byteLength':"
+                                                           "1},"
+                                                           "{'buffer':0,'byteOffset':4,'byteLength'"
+                                                           ":12}],"
+                                                           "'buffers':[{'byteLength':16,'uri':'"
+                                                           "data:;base64,AQAAAAAAgD8AAAAAAAAAAA=='"
+                                                           "}]}"),
+        PPM_STATUS_OK);
+    assert_values(f->scene->materials[0].desc.multiscatter_color, 1, (const float[]){0.4f * 0.5f});
+    assert_true(fabsf(f->scene->materials[0].desc.multiscatter_color[1] - 0.5f * 0.5f * 0.5029f) <
+                1e-4f);
+    assert_values(f->scene->materials[0].desc.multiscatter_color + 2, 1,
+                  (const float[]){0.6f * 0.5f});
+    assert_gltf_logged(f, 'I', "approximated: KHR_materials_volume_scatter: the medium inside");
 }
 
 /* Blender leaves out the thickness of its glass; what seeps through a leaf has none to leave out.
@@ -294,7 +328,7 @@ int main(void)
         TEST(iridescence_and_anisotropy_are_read),
         TEST(retroreflection_is_read_under_both_its_names),
         TEST(scattering_is_read_under_both_names_of_its_colour),
-        TEST(a_texture_of_the_medium_is_told_to_be_left_out),
+        TEST(a_texture_of_the_medium_gives_its_mean_colour),
         TEST(a_sheet_that_light_seeps_through_is_thin),
         TEST(values_out_of_range_are_brought_into_it_with_a_warning),
         TEST(the_anisotropy_of_scattering_stays_short_of_a_pulse),
