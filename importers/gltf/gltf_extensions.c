@@ -96,5 +96,9 @@ ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
                                row < ROW_COUNT ? rows[row].verdict : PPM_FEATURE_IGNORED,
                                row < ROW_COUNT ? rows[row].note : "the extension is not known");
     }
+    if (document->used_count > MAX_LISTED) {
+        ppmi_gltf_note_feature(reader, "further extensions", PPM_FEATURE_IGNORED,
+                               "the list of them is too long to be looked at as a whole");
+    }
     return PPM_STATUS_OK;
 }

@@ -99,6 +99,22 @@ static void every_used_extension_gets_one_line(void **state)
     assert_gltf_logged(f, 'W', "ignored: EXT_of_tomorrow: the extension is not known");
 }
 
+static void a_list_of_extensions_without_end_is_cut(void **state)
+{
+    gltf_fixture *f = *state;
+    char list[4096];
+    size_t length = 0;
+    for (int i = 0; i < 100; ++i) {
+        length += (size_t)snprintf(list + length, sizeof list - length, "%s'EXT_%d'",
+                                   i == 0 ? "" : ",", i);
+    }
+    assert_gltf_status(f, gltf_importf(f, "{" GLTF_HEAD "'extensionsUsed':[%s]," SMALL, list),
+                       PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "ignored: EXT_63");
+    assert_false(gltf_logged(f, 'W', "ignored: EXT_64"));
+    assert_gltf_logged(f, 'W', "ignored: further extensions");
+}
+
 static void strict_refuses_what_is_ignored_after_the_whole_report(void **state)
 {
     gltf_fixture *f = *state;
@@ -163,6 +179,7 @@ int main(void)
         TEST(many_ignored_features_are_cut_in_the_error_but_all_logged),
         TEST(a_lost_note_is_an_error),
         TEST(every_used_extension_gets_one_line),
+        TEST(a_list_of_extensions_without_end_is_cut),
         TEST(strict_refuses_what_is_ignored_after_the_whole_report),
         TEST(strict_accepts_what_is_honoured_or_approximated),
         TEST(parts_of_the_core_format_are_counted),
