@@ -125,6 +125,7 @@ static ppm_status run(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
@@ -143,6 +144,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
     ppmi_gltf_report_deinit(r->context, &r->report);
+    ppmi_free(r->context, r->xmp);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

@@ -60,6 +60,7 @@ struct ppmi_gltf_reader {
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
     ppmi_gltf_report report;
+    char *xmp; /* the asset's metadata, JSON text; NULL: none */
 };
 
 /* ---- gltf_file.c: files, GLB, buffers -------------------------------------------------------- */
@@ -141,10 +142,9 @@ ppm_status ppmi_gltf_choose_variant(ppmi_gltf_reader *reader);
 int32_t ppmi_gltf_variant_material(const ppmi_gltf_reader *reader,
                                    const ppmi_gltf_primitive *primitive);
 
-/* gltf_xmp.c: the JSON text of the asset's metadata (KHR_xmp_json_ld), as it stands in the file and
- * ended by a zero; NULL where there is none. *out_text is the caller's to free. A packet that does
- * not exist is warned about. Returns OK, OUT_OF_MEMORY. */
-ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader, char **out_text);
+/* gltf_xmp.c: fills in reader->xmp with the asset's metadata (KHR_xmp_json_ld) as it stands in the
+ * file. A packet that does not exist is warned about. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader);
 
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */

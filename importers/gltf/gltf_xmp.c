@@ -65,11 +65,10 @@ static bool enter_item(ppmi_gltf_json *json, int32_t index)
     return false;
 }
 
-ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader, char **out_text)
+ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader)
 {
     const int32_t packet = reader->document->xmp_packet;
     ppmi_gltf_json json = {.text = reader->json, .length = reader->json_length};
-    *out_text = NULL;
     if (packet < 0) return PPM_STATUS_OK;
     if (!enter_member(&json, "extensions") || !enter_member(&json, "KHR_xmp_json_ld") ||
         !enter_member(&json, "packets") || !enter_item(&json, packet) ||
@@ -84,6 +83,6 @@ ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader, char **out_text)
     if (!text) return ppmi_gltf_out_of_memory(reader, "extensions.KHR_xmp_json_ld");
     memcpy(text, reader->json + begin, json.at - begin);
     text[json.at - begin] = 0;
-    *out_text = text;
+    reader->xmp = text;
     return PPM_STATUS_OK;
 }

@@ -8,7 +8,6 @@
 static char *read_xmp(gltf_fixture *f, const char *json, int32_t packet)
 {
     char text[1024];
-    char *xmp = NULL;
     const size_t length = strlen(json);
     assert_true(length < sizeof text);
     for (size_t i = 0; i <= length; ++i) {
@@ -20,8 +19,8 @@ static char *read_xmp(gltf_fixture *f, const char *json, int32_t packet)
                                .json = text,
                                .json_length = length,
                                .document = &document};
-    assert_int_equal(ppmi_gltf_read_xmp(&reader, &xmp), PPM_STATUS_OK);
-    return xmp;
+    assert_int_equal(ppmi_gltf_read_xmp(&reader), PPM_STATUS_OK);
+    return reader.xmp;
 }
 
 static void assert_xmp(gltf_fixture *f, const char *json, int32_t packet, const char *expected)
@@ -84,11 +83,25 @@ static void memory_may_end(void **state)
                                .json = text,
                                .json_length = strlen(text),
                                .document = &document};
-    char *xmp = NULL;
     ppmi_alloc_fail_at(f->context, 1);
-    assert_int_equal(ppmi_gltf_read_xmp(&reader, &xmp), PPM_STATUS_OUT_OF_MEMORY);
+    assert_int_equal(ppmi_gltf_read_xmp(&reader), PPM_STATUS_OUT_OF_MEMORY);
     ppmi_alloc_fail_at(f->context, 0);
-    assert_null(xmp);
+    assert_null(reader.xmp);
+}
+
+/* Through the whole import: the packet that the asset names, and one that it names in vain. */
+static void metadata_does_not_disturb_the_import(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char format[] =
+        "{'asset':{'version':'2.0','extensions':{'KHR_xmp_json_ld':{'packet':%d}}},"
+        "'extensionsUsed':['KHR_xmp_json_ld'],'extensions':{'KHR_xmp_json_ld':{'packets':[{}]}}}";
+    assert_gltf_status(f, gltf_importf(f, format, 0), PPM_STATUS_OK);
+    assert_gltf_logged(f, 'D', "honoured: KHR_xmp_json_ld");
+    assert_false(gltf_logged(f, 'W', "packet"));
+    gltf_reset(f);
+    assert_gltf_status(f, gltf_importf(f, format, 1), PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "packet 1 does not exist");
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
@@ -96,10 +109,9 @@ static void memory_may_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_packet_that_is_not_there_is_told),
-        TEST(a_file_without_metadata_has_none),
-        TEST(the_packet_is_taken_as_it_stands_in_the_file),
-        TEST(memory_may_end),
+        TEST(a_packet_that_is_not_there_is_told),           TEST(a_file_without_metadata_has_none),
+        TEST(the_packet_is_taken_as_it_stands_in_the_file), TEST(memory_may_end),
+        TEST(metadata_does_not_disturb_the_import),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
