@@ -60,20 +60,29 @@ static size_t find_row(const char *name)
     return i;
 }
 
-static bool contains(const char *const *names, size_t count, const char *name)
-{
-    for (size_t i = 0; i < count; ++i) {
-        if (strcmp(names[i], name) == 0) return true;
-    }
-    return false;
-}
-
 /* A required extension that is not read, with what to do about it. */
 static ppm_status refuse(ppmi_gltf_reader *reader, size_t index, const char *shown, size_t row)
 {
     return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
                      "%s: extensionsRequired[%zu]: %s is not supported%s%s", reader->path, index,
                      shown, row < ROW_COUNT ? ": " : "", row < ROW_COUNT ? rows[row].note : "");
+}
+
+/* One line for each of a list; the report drops those that come twice. */
+static void note(ppmi_gltf_reader *reader, const char *const *names, size_t count)
+{
+    char shown[128];
+    for (size_t i = 0; i < count && i < MAX_LISTED; ++i) {
+        const size_t row = find_row(names[i]);
+        ppmi_gltf_printable(names[i], strlen(names[i]), shown, sizeof shown);
+        ppmi_gltf_note_feature(reader, shown,
+                               row < ROW_COUNT ? rows[row].verdict : PPM_FEATURE_IGNORED,
+                               row < ROW_COUNT ? rows[row].note : "the extension is not known");
+    }
+    if (count > MAX_LISTED) {
+        ppmi_gltf_note_feature(reader, "further extensions", PPM_FEATURE_IGNORED,
+                               "the list of them is too long to be looked at as a whole");
+    }
 }
 
 ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
@@ -87,18 +96,7 @@ ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
         ppmi_gltf_printable(name, strlen(name), shown, sizeof shown);
         return refuse(reader, i, shown, row);
     }
-    for (size_t i = 0; i < document->used_count && i < MAX_LISTED; ++i) {
-        const char *name = document->extensions_used[i];
-        const size_t row = find_row(name);
-        if (contains(document->extensions_used, i, name)) continue;
-        ppmi_gltf_printable(name, strlen(name), shown, sizeof shown);
-        ppmi_gltf_note_feature(reader, shown,
-                               row < ROW_COUNT ? rows[row].verdict : PPM_FEATURE_IGNORED,
-                               row < ROW_COUNT ? rows[row].note : "the extension is not known");
-    }
-    if (document->used_count > MAX_LISTED) {
-        ppmi_gltf_note_feature(reader, "further extensions", PPM_FEATURE_IGNORED,
-                               "the list of them is too long to be looked at as a whole");
-    }
+    note(reader, document->extensions_used, document->used_count);
+    note(reader, document->extensions_required, document->required_count);
     return PPM_STATUS_OK;
 }
