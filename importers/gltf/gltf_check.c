@@ -316,7 +316,8 @@ static bool check_object(checker *c, const gltf_field *field)
 
 static bool check_objects(checker *c, const gltf_field *field)
 {
-    const gltf_field item = {.key = field->key, .flags = GLTF_VITAL, .fields = field->fields};
+    const gltf_field item = {
+        .key = field->key, .flags = field->flags & GLTF_VITAL, .fields = field->fields};
     bool is_open;
     if (!open_array(c, field, &is_open) || !is_open) return !c->json.error;
     for (size_t i = 0; next_item(c, i); ++i) {

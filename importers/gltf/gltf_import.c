@@ -42,7 +42,8 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
                  {PPMI_GLTF_TEXTURES, d->texture_count},
                  {PPMI_GLTF_SAMPLERS, d->sampler_count},
                  {PPMI_GLTF_CAMERAS, d->camera_count},
-                 {PPMI_GLTF_LIGHTS, d->light_count}};
+                 {PPMI_GLTF_LIGHTS, d->light_count},
+                 {PPMI_GLTF_VARIANTS, d->variant_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,
@@ -105,13 +106,8 @@ static void report(const ppmi_gltf_reader *r)
     const ppmi_gltf_tally *tally = &r->tally;
     report_light_units(r);
     report_glass(r);
-    report_count(r, tally->points_or_lines, "primitives of points or lines left out");
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
-    report_count(r, tally->skins, "skinned nodes: skins are not applied");
-    report_count(r, tally->morph_targets, "primitives with morph targets: not applied");
-    report_count(r, r->outline.lists[PPMI_GLTF_ANIMATIONS].count,
-                 "animations: the file's static pose is shown");
     if (tally->instances == 0) {
         ppmi_log(r->context, PPM_LOG_WARNING, "%s: nothing to render: %s", r->path,
                  r->outline.lists[PPMI_GLTF_MESHES].count == 0
@@ -127,9 +123,13 @@ static ppm_status run(ppmi_gltf_reader *r)
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
+    if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
     return status;
 }
 
@@ -143,6 +143,8 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->materials);
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
+    ppmi_gltf_report_deinit(r->context, &r->report);
+    ppmi_free(r->context, r->xmp);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

@@ -2,24 +2,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "gltf/gltf_reader.h"
+#include "gltf/gltf_material.h"
 
-#define HUGE_VALUE 1e18
-
-/* One material on its way to the scene. */
-typedef struct conversion {
-    ppmi_gltf_reader *reader;
-    const ppmi_gltf_material *from;
-    char place[PPMI_GLTF_PLACE]; /* materials[i] */
-    ppm_material_desc desc;
-    ppm_status status; /* the first failure */
-} conversion;
+typedef ppmi_gltf_conversion conversion;
 
 /* ---- values ---------------------------------------------------------------------------------- */
 
-/* Brings values into low..high, with one warning for all of them. */
-static void set(conversion *c, const char *name, const double *from, int count, double low,
-                double high, float *out)
+void ppmi_gltf_set(conversion *c, const char *name, const double *from, int count, double low,
+                   double high, float *out)
 {
     bool is_clamped = false;
     for (int i = 0; i < count; ++i) {
@@ -32,8 +22,8 @@ static void set(conversion *c, const char *name, const double *from, int count, 
     }
 }
 
-static void set_texture(conversion *c, const char *name, const ppmi_gltf_texture_info *info,
-                        int32_t role, ppm_texture *out)
+void ppmi_gltf_set_texture(conversion *c, const char *name, const ppmi_gltf_texture_info *info,
+                           int32_t role, ppm_texture *out)
 {
     char place[PPMI_GLTF_PLACE];
     if (c->status != PPM_STATUS_OK || info->texture < 0) return;
@@ -41,28 +31,47 @@ static void set_texture(conversion *c, const char *name, const ppmi_gltf_texture
     c->status = ppmi_gltf_use_texture(c->reader, info, role, place, out);
 }
 
+int32_t ppmi_gltf_alpha_role(const conversion *c, const ppmi_gltf_texture_info *alpha,
+                             const ppmi_gltf_texture_info *color)
+{
+    const ppmi_gltf_document *document = c->reader->document;
+    const size_t a = (size_t)alpha->texture, b = (size_t)color->texture; /* -1: huge */
+    if (a >= document->texture_count || b >= document->texture_count) return PPM_IMAGE_DATA;
+    return document->textures[a].source == document->textures[b].source ? PPM_IMAGE_COLOR
+                                                                        : PPM_IMAGE_DATA;
+}
+
 /* ---- groups of values ------------------------------------------------------------------------ */
 
-static void convert_core(conversion *c)
+static void convert_metallic_roughness(conversion *c)
 {
     const ppmi_gltf_material *from = c->from;
     ppm_material_desc *desc = &c->desc;
-    set(c, "baseColorFactor", from->base_color, 4, 0.0, 1.0, desc->base_color);
-    set_texture(c, "pbrMetallicRoughness.baseColorTexture", &from->base_color_texture,
-                PPM_IMAGE_COLOR, &desc->base_color_texture);
-    set(c, "metallicFactor", &from->metallic, 1, 0.0, 1.0, &desc->metallic);
-    set(c, "roughnessFactor", &from->roughness, 1, 0.0, 1.0, &desc->roughness);
-    set_texture(c, "pbrMetallicRoughness.metallicRoughnessTexture",
-                &from->metallic_roughness_texture, PPM_IMAGE_DATA,
-                &desc->metallic_roughness_texture);
-    set_texture(c, "normalTexture", &from->normal_texture, PPM_IMAGE_DATA, &desc->normal_texture);
-    set(c, "normalTexture.scale", &from->normal_texture.scale, 1, -HUGE_VALUE, HUGE_VALUE,
-        &desc->normal_scale);
+    ppmi_gltf_set(c, "baseColorFactor", from->base_color, 4, 0.0, 1.0, desc->base_color);
+    ppmi_gltf_set_texture(c, "pbrMetallicRoughness.baseColorTexture", &from->base_color_texture,
+                          PPM_IMAGE_COLOR, &desc->base_color_texture);
+    ppmi_gltf_set(c, "metallicFactor", &from->metallic, 1, 0.0, 1.0, &desc->metallic);
+    ppmi_gltf_set(c, "roughnessFactor", &from->roughness, 1, 0.0, 1.0, &desc->roughness);
+    ppmi_gltf_set_texture(c, "pbrMetallicRoughness.metallicRoughnessTexture",
+                          &from->metallic_roughness_texture, PPM_IMAGE_DATA,
+                          &desc->metallic_roughness_texture);
+}
+
+/* What every model of a surface has. */
+static void convert_surface(conversion *c)
+{
+    const ppmi_gltf_material *from = c->from;
+    ppm_material_desc *desc = &c->desc;
+    ppmi_gltf_set_texture(c, "normalTexture", &from->normal_texture, PPM_IMAGE_DATA,
+                          &desc->normal_texture);
+    ppmi_gltf_set(c, "normalTexture.scale", &from->normal_texture.scale, 1, -PPMI_GLTF_HUGE,
+                  PPMI_GLTF_HUGE, &desc->normal_scale);
     desc->double_sided = from->double_sided;
     desc->alpha_mode = strcmp(from->alpha_mode, "MASK") == 0    ? PPM_ALPHA_MASK
                        : strcmp(from->alpha_mode, "BLEND") == 0 ? PPM_ALPHA_BLEND
                                                                 : PPM_ALPHA_OPAQUE;
-    set(c, "alphaCutoff", &from->alpha_cutoff, 1, 0.0, HUGE_VALUE, &desc->alpha_cutoff);
+    ppmi_gltf_set(c, "alphaCutoff", &from->alpha_cutoff, 1, 0.0, PPMI_GLTF_HUGE,
+                  &desc->alpha_cutoff);
 }
 
 /* KHR_materials_emissive_strength makes the product a luminance in nit. */
@@ -72,65 +81,32 @@ static void convert_emission(conversion *c)
     for (int i = 0; i < 3; ++i) {
         emission[i] = c->from->emissive[i] * c->from->emissive_strength;
     }
-    set(c, "emissiveFactor (with emissiveStrength)", emission, 3, 0.0, HUGE_VALUE,
-        c->desc.emission);
-    set_texture(c, "emissiveTexture", &c->from->emissive_texture, PPM_IMAGE_COLOR,
-                &c->desc.emission_texture);
+    ppmi_gltf_set(c, "emissiveFactor (with emissiveStrength)", emission, 3, 0.0, PPMI_GLTF_HUGE,
+                  c->desc.emission);
+    ppmi_gltf_set_texture(c, "emissiveTexture", &c->from->emissive_texture, PPM_IMAGE_COLOR,
+                          &c->desc.emission_texture);
 }
 
 static void convert_dielectric(conversion *c)
 {
     const ppmi_gltf_material *from = c->from;
     ppm_material_desc *desc = &c->desc;
-    set(c, "KHR_materials_ior.ior", &from->ior, 1, 0.0, 1000.0, &desc->ior);
+    ppmi_gltf_set(c, "KHR_materials_ior.ior", &from->ior, 1, 0.0, 1000.0, &desc->ior);
     if (desc->ior > 0.0f && desc->ior < 1.0f) { /* 0 is the extension's own special value */
         ppmi_gltf_warn(c->reader, c->place, "KHR_materials_ior.ior is less than 1; 1 is used");
         desc->ior = 1.0f;
     }
-    set(c, "KHR_materials_specular.specularFactor", &from->specular, 1, 0.0, 1.0, &desc->specular);
-    set_texture(c, "KHR_materials_specular.specularTexture", &from->specular_texture,
-                PPM_IMAGE_DATA, &desc->specular_texture);
-    set(c, "KHR_materials_specular.specularColorFactor", from->specular_color, 3, 0.0, HUGE_VALUE,
-        desc->specular_color);
-    set_texture(c, "KHR_materials_specular.specularColorTexture", &from->specular_color_texture,
-                PPM_IMAGE_COLOR, &desc->specular_color_texture);
-}
-
-/* include/ppm/import.h, PPM_TRANSMISSION_POLICY_ */
-static int32_t transmission_kind(const ppmi_gltf_reader *reader, double thickness)
-{
-    switch (reader->options->transmission) {
-    case PPM_TRANSMISSION_POLICY_SOLID:
-        return PPM_TRANSMISSION_SOLID;
-    case PPM_TRANSMISSION_POLICY_THIN:
-        return PPM_TRANSMISSION_THIN;
-    default:
-        return thickness > 0.0 || reader->from_blender ? PPM_TRANSMISSION_SOLID
-                                                       : PPM_TRANSMISSION_THIN;
-    }
-}
-
-static void convert_transmission(conversion *c)
-{
-    const ppmi_gltf_material *from = c->from;
-    ppm_material_desc *desc = &c->desc;
-    if (!(from->transmission > 0.0)) return;
-    set(c, "KHR_materials_transmission.transmissionFactor", &from->transmission, 1, 0.0, 1.0,
-        &desc->transmission);
-    set_texture(c, "KHR_materials_transmission.transmissionTexture", &from->transmission_texture,
-                PPM_IMAGE_DATA, &desc->transmission_texture);
-    set(c, "KHR_materials_volume.attenuationColor", from->attenuation_color, 3, 0.0, 1.0,
-        desc->attenuation_color);
-    set(c, "KHR_materials_volume.attenuationDistance", &from->attenuation_distance, 1, 0.0,
-        HUGE_VALUE, &desc->attenuation_distance_m);
-    set(c, "KHR_materials_dispersion.dispersion", &from->dispersion, 1, 0.0, 1000.0,
-        &desc->dispersion);
-    desc->transmission_kind = transmission_kind(c->reader, from->thickness);
-    if (desc->transmission_kind == PPM_TRANSMISSION_SOLID) {
-        c->reader->tally.solid_glass++;
-    } else {
-        c->reader->tally.thin_glass++;
-    }
+    ppmi_gltf_set(c, "KHR_materials_specular.specularFactor", &from->specular, 1, 0.0, 1.0,
+                  &desc->specular);
+    ppmi_gltf_set_texture(
+        c, "KHR_materials_specular.specularTexture", &from->specular_texture,
+        ppmi_gltf_alpha_role(c, &from->specular_texture, &from->specular_color_texture),
+        &desc->specular_texture);
+    ppmi_gltf_set(c, "KHR_materials_specular.specularColorFactor", from->specular_color, 3, 0.0,
+                  PPMI_GLTF_HUGE, desc->specular_color);
+    ppmi_gltf_set_texture(c, "KHR_materials_specular.specularColorTexture",
+                          &from->specular_color_texture, PPM_IMAGE_COLOR,
+                          &desc->specular_color_texture);
 }
 
 /* glTF has no word for which of two overlapping solids is there, so it is one of ours. */
@@ -152,29 +128,49 @@ static void convert_unlit(conversion *c)
     ppm_material_desc *desc = &c->desc;
     memcpy(desc->emission, desc->base_color, sizeof desc->emission);
     desc->emission_texture = desc->base_color_texture;
+    desc->emission_takes_vertex_color = 1;
     memset(desc->base_color, 0, sizeof desc->emission);
     desc->metallic = 0.0f;
     desc->roughness = 1.0f;
     desc->metallic_roughness_texture = (ppm_texture){0};
     desc->normal_texture = (ppm_texture){0};
     desc->specular = 0.0f;
-    ppmi_log(c->reader->context, PPM_LOG_INFO,
-             "%s: %s: KHR_materials_unlit: it shines with its base colour, 1 nit for white, and "
-             "reflects nothing",
-             c->reader->path, c->place);
+    ppmi_gltf_note_feature(c->reader, "KHR_materials_unlit", PPM_FEATURE_APPROXIMATED,
+                           "such a material shines with its base colour, 1 nit for white, and "
+                           "reflects nothing");
 }
 
+/* The extensions exclude each other where they are not called for one material. */
 static void convert(conversion *c)
 {
-    convert_core(c);
+    const bool is_glossy = c->from->specular_glossiness.is_given && !c->from->is_unlit;
+    if (is_glossy) {
+        ppmi_gltf_convert_specular_glossiness(c);
+    } else {
+        convert_metallic_roughness(c);
+    }
+    convert_surface(c);
     if (c->from->is_unlit) {
         convert_unlit(c);
         return;
     }
     convert_emission(c);
-    convert_dielectric(c);
-    convert_transmission(c);
     convert_priority(c);
+    if (is_glossy) return;
+    convert_dielectric(c);
+    ppmi_gltf_convert_layers(c);
+    ppmi_gltf_convert_inside(c);
+}
+
+ppm_status ppmi_gltf_convert_material(ppmi_gltf_reader *reader, int32_t index,
+                                      const ppmi_gltf_material *from, ppm_material_desc *out_desc)
+{
+    conversion c = {.reader = reader, .from = from};
+    ppmi_gltf_place(c.place, "materials[%d]", (int)index);
+    ppm_material_desc_init(&c.desc);
+    convert(&c);
+    *out_desc = c.desc;
+    return c.status;
 }
 
 /* ---- use ------------------------------------------------------------------------------------- */
@@ -183,13 +179,11 @@ static ppm_status add_material(ppmi_gltf_reader *reader, int32_t index, ppm_mate
 {
     const ppmi_gltf_material *from = &reader->document->materials[index];
     char name[PPMI_GLTF_PLACE];
-    conversion c = {.reader = reader, .from = from};
-    ppmi_gltf_place(c.place, "materials[%d]", (int)index);
-    ppm_material_desc_init(&c.desc);
-    c.desc.name = ppmi_gltf_printable(from->name, strlen(from->name), name, sizeof name);
-    convert(&c);
-    if (c.status != PPM_STATUS_OK) return c.status;
-    return ppm_scene_add_material(reader->scene, &c.desc, out_id);
+    ppm_material_desc desc;
+    const ppm_status status = ppmi_gltf_convert_material(reader, index, from, &desc);
+    if (status != PPM_STATUS_OK) return status;
+    desc.name = ppmi_gltf_printable(from->name, strlen(from->name), name, sizeof name);
+    return ppm_scene_add_material(reader->scene, &desc, out_id);
 }
 
 /* The specification's material for primitives that name none: white metal, rough. */

@@ -18,7 +18,8 @@ static const char *const list_names[PPMI_GLTF_LIST_COUNT] = {[PPMI_GLTF_SCENES] 
                                                              [PPMI_GLTF_CAMERAS] = "cameras",
                                                              [PPMI_GLTF_LIGHTS] = "lights",
                                                              [PPMI_GLTF_ANIMATIONS] = "animations",
-                                                             [PPMI_GLTF_SKINS] = "skins"};
+                                                             [PPMI_GLTF_SKINS] = "skins",
+                                                             [PPMI_GLTF_VARIANTS] = "variants"};
 
 bool ppmi_gltf_is_usable(const ppmi_gltf_reader *reader, int list, int32_t index, char *reason,
                          size_t reason_size)

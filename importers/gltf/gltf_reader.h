@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "gltf/gltf_check.h"
+#include "gltf/gltf_report.h"
 #include "gltf/gltf_shim.h"
 #include "ppm/import.h"
 
@@ -28,11 +29,11 @@ typedef struct ppmi_gltf_image_use {
 typedef struct ppmi_gltf_tally {
     size_t instances;
     size_t punctual_lights;
-    size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
+    size_t broken_counts, no_positions;
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
 
-typedef struct ppmi_gltf_reader {
+struct ppmi_gltf_reader {
     ppm_context *context;
     ppm_scene *scene;
     const ppm_import_options *options;
@@ -55,9 +56,12 @@ typedef struct ppmi_gltf_reader {
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
     ppm_material_id default_material; /* 0: not added yet */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
+    uint32_t variant;                 /* that is shown, from 1; 0: the plain materials */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
-} ppmi_gltf_reader;
+    ppmi_gltf_report report;
+    char *xmp; /* the asset's metadata, JSON text; NULL: none */
+};
 
 /* ---- gltf_file.c: files, GLB, buffers -------------------------------------------------------- */
 
@@ -129,6 +133,18 @@ ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char
 /* gltf_material.c: the material's id, adding it at its first use; -1 is the default material. */
 ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, const char *place,
                                   ppm_material_id *out_id);
+
+/* gltf_variants.c: finds the variant of the options, which becomes reader->variant. Returns OK,
+ * INVALID_ARGUMENT (no variant of that name). */
+ppm_status ppmi_gltf_choose_variant(ppmi_gltf_reader *reader);
+
+/* The material of a primitive in the chosen variant. */
+int32_t ppmi_gltf_variant_material(const ppmi_gltf_reader *reader,
+                                   const ppmi_gltf_primitive *primitive);
+
+/* gltf_xmp.c: fills in reader->xmp with the asset's metadata (KHR_xmp_json_ld) as it stands in the
+ * file. A packet that does not exist is warned about. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader);
 
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */

@@ -64,12 +64,20 @@ static const gltf_field buffer_view[] = {
 
 /* tinygltf refuses indices whose accessor has no buffer view or does not exist. Under the key
  * "extras" it hands the number on as it is; the shim takes it from there. */
+static const gltf_field variant_mapping[] = {
+    INDEX("material", GLTF_REQUIRED),
+    FIELD("variants", GLTF_INTEGERS, .flags = GLTF_REQUIRED, .max = INDEX_MAX), END};
+static const gltf_field primitive_variants[] = {
+    FIELD("mappings", GLTF_OBJECTS, .flags = GLTF_REQUIRED, .fields = variant_mapping), END};
+static const gltf_field primitive_extensions[] = {
+    OBJECT("KHR_materials_variants", primitive_variants), END};
 static const gltf_field primitive[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("indices", GLTF_INTEGER, .flags = GLTF_VITAL, .max = INDEX_MAX, .rename = "extras"),
     FIELD("extras", GLTF_ANY, .rename = "_"),
     INDEX("material", GLTF_VITAL),
     FIELD("mode", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 6),
+    OBJECT("extensions", primitive_extensions),
     END};
 static const gltf_field mesh[] = {
     STRING("name"),
@@ -155,14 +163,56 @@ static const gltf_field volume[] = {
     NUMBER("thicknessFactor"), OBJECT("thicknessTexture", texture_info),
     NUMBER("attenuationDistance"), NUMBERS("attenuationColor", 3, 0), END};
 static const gltf_field no_fields[] = {END};
+static const gltf_field anisotropy[] = {NUMBER("anisotropyStrength"), NUMBER("anisotropyRotation"),
+                                        OBJECT("anisotropyTexture", texture_info), END};
+static const gltf_field clearcoat[] = {NUMBER("clearcoatFactor"),
+                                       OBJECT("clearcoatTexture", texture_info),
+                                       NUMBER("clearcoatRoughnessFactor"),
+                                       OBJECT("clearcoatRoughnessTexture", texture_info),
+                                       OBJECT("clearcoatNormalTexture", texture_info),
+                                       END};
+static const gltf_field diffuse_transmission[] = {
+    NUMBER("diffuseTransmissionFactor"), OBJECT("diffuseTransmissionTexture", texture_info),
+    NUMBERS("diffuseTransmissionColorFactor", 3, 0),
+    OBJECT("diffuseTransmissionColorTexture", texture_info), END};
+static const gltf_field iridescence[] = {NUMBER("iridescenceFactor"),
+                                         OBJECT("iridescenceTexture", texture_info),
+                                         NUMBER("iridescenceIor"),
+                                         NUMBER("iridescenceThicknessMinimum"),
+                                         NUMBER("iridescenceThicknessMaximum"),
+                                         OBJECT("iridescenceThicknessTexture", texture_info),
+                                         END};
+static const gltf_field retroreflection[] = {NUMBER("retroreflectionFactor"),
+                                             OBJECT("retroreflectionTexture", texture_info), END};
+static const gltf_field sheen[] = {
+    NUMBERS("sheenColorFactor", 3, 0), OBJECT("sheenColorTexture", texture_info),
+    NUMBER("sheenRoughnessFactor"), OBJECT("sheenRoughnessTexture", texture_info), END};
+static const gltf_field specular_glossiness[] = {NUMBERS("diffuseFactor", 4, 0),
+                                                 OBJECT("diffuseTexture", texture_info),
+                                                 NUMBERS("specularFactor", 3, 0),
+                                                 NUMBER("glossinessFactor"),
+                                                 OBJECT("specularGlossinessTexture", texture_info),
+                                                 END};
+static const gltf_field volume_scatter[] = {
+    NUMBERS("multiscatterColor", 3, 0), NUMBERS("multiscatterColorFactor", 3, 0),
+    OBJECT("multiscatterColorTexture", texture_info), NUMBER("scatterAnisotropy"), END};
 static const gltf_field material_extensions[] = {
+    OBJECT("EXT_materials_retroreflection", retroreflection),
+    OBJECT("KHR_materials_anisotropy", anisotropy),
+    OBJECT("KHR_materials_clearcoat", clearcoat),
+    OBJECT("KHR_materials_diffuse_transmission", diffuse_transmission),
     OBJECT("KHR_materials_dispersion", dispersion),
     OBJECT("KHR_materials_emissive_strength", emissive_strength),
     OBJECT("KHR_materials_ior", ior),
+    OBJECT("KHR_materials_iridescence", iridescence),
+    OBJECT("KHR_materials_pbrSpecularGlossiness", specular_glossiness),
+    OBJECT("KHR_materials_retroreflection", retroreflection),
+    OBJECT("KHR_materials_sheen", sheen),
     OBJECT("KHR_materials_specular", specular),
     OBJECT("KHR_materials_transmission", transmission),
     OBJECT("KHR_materials_unlit", no_fields),
     OBJECT("KHR_materials_volume", volume),
+    OBJECT("KHR_materials_volume_scatter", volume_scatter),
     END};
 /* extras may be anything (specification, 3.4); ours is an object with this member */
 static const gltf_field material_extras[] = {NUMBER("ppm_priority"), END};
@@ -197,10 +247,21 @@ static const gltf_field sampler[] = {INDEX("magFilter", 0), INDEX("minFilter", 0
 
 static const gltf_field punctual[] = {
     LIST("lights", PPMI_GLTF_LIGHTS, 0, light, "{\"type\":\"point\"}"), END};
-static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual), END};
+static const gltf_field variant[] = {
+    FIELD("name", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
+static const gltf_field variants[] = {
+    LIST("variants", PPMI_GLTF_VARIANTS, 0, variant, "{\"name\":\"\"}"), END};
+static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual),
+                                             OBJECT("KHR_materials_variants", variants), END};
+static const gltf_field asset_xmp[] = {INDEX("packet", 0), END};
+static const gltf_field asset_extensions[] = {OBJECT("KHR_xmp_json_ld", asset_xmp), END};
 static const gltf_field asset[] = {
-    FIELD("version", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), STRING("generator"),
-    STRING("minVersion"), END};
+    FIELD("version", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    STRING("generator"),
+    STRING("copyright"),
+    STRING("minVersion"),
+    OBJECT("extensions", asset_extensions),
+    END};
 
 const gltf_field ppmi_gltf_schema[] = {
     VITAL_OBJECT("asset", asset, GLTF_REQUIRED),

@@ -12,7 +12,7 @@ typedef enum gltf_kind {
     GLTF_STRING,   /* one of choices, if there are any */
     GLTF_OBJECT,   /* with fields */
     GLTF_LIST,     /* of objects with fields; its elements are counted and may break one by one */
-    GLTF_OBJECTS,  /* array of objects with fields; a broken one breaks the element around it */
+    GLTF_OBJECTS,  /* array of objects with fields, in which one is vital where the field is */
     GLTF_NUMBERS,  /* array of min_items..max_items numbers */
     GLTF_INTEGERS, /* array of integers, min..max */
     GLTF_STRINGS,  /* array of strings */

@@ -39,6 +39,10 @@ struct Document : ppmi_gltf_document {
     std::deque<std::vector<ppmi_gltf_attribute>> attribute_lists;
     std::deque<std::vector<ppmi_gltf_primitive>> primitive_lists;
     std::deque<std::map<std::string, int>> instance_maps;
+    std::deque<std::vector<ppmi_gltf_mapping>> mapping_lists;
+    std::deque<std::vector<int32_t>> variant_lists;
+    std::deque<std::string> variant_strings;
+    std::vector<const char *> variant_names;
 };
 
 // ---- extension values ---------------------------------------------------------------------------
@@ -109,8 +113,78 @@ template <typename Info> ppmi_gltf_texture_info core_texture(const Info &info)
 ppmi_gltf_texture_info extension_texture(const Value &object, const char *key)
 {
     const Value &info = member(object, key);
-    return texture_info(index_or(info, "index", -1), index_or(info, "texCoord", 0),
-                        member(member(info, "extensions"), "KHR_texture_transform"));
+    ppmi_gltf_texture_info out =
+        texture_info(index_or(info, "index", -1), index_or(info, "texCoord", 0),
+                     member(member(info, "extensions"), "KHR_texture_transform"));
+    out.scale = number_or(info, "scale", 1.0);
+    return out;
+}
+
+void copy_clearcoat_and_sheen(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
+{
+    const Value &coat = extension(map, "KHR_materials_clearcoat");
+    out->clearcoat = number_or(coat, "clearcoatFactor", 0.0);
+    out->clearcoat_texture = extension_texture(coat, "clearcoatTexture");
+    out->clearcoat_roughness = number_or(coat, "clearcoatRoughnessFactor", 0.0);
+    out->clearcoat_roughness_texture = extension_texture(coat, "clearcoatRoughnessTexture");
+    out->clearcoat_normal_texture = extension_texture(coat, "clearcoatNormalTexture");
+
+    const Value &sheen = extension(map, "KHR_materials_sheen");
+    numbers_or(sheen, "sheenColorFactor", out->sheen_color, 3, 0.0);
+    out->sheen_color_texture = extension_texture(sheen, "sheenColorTexture");
+    out->sheen_roughness = number_or(sheen, "sheenRoughnessFactor", 0.0);
+    out->sheen_roughness_texture = extension_texture(sheen, "sheenRoughnessTexture");
+}
+
+// Of retroreflection both the draft of Khronos and the extension that it grew out of.
+void copy_highlights(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
+{
+    const Value &film = extension(map, "KHR_materials_iridescence");
+    out->iridescence = number_or(film, "iridescenceFactor", 0.0);
+    out->iridescence_texture = extension_texture(film, "iridescenceTexture");
+    out->iridescence_ior = number_or(film, "iridescenceIor", 1.3);
+    out->iridescence_min_nm = number_or(film, "iridescenceThicknessMinimum", 100.0);
+    out->iridescence_max_nm = number_or(film, "iridescenceThicknessMaximum", 400.0);
+    out->iridescence_thickness_texture = extension_texture(film, "iridescenceThicknessTexture");
+
+    const Value &anisotropy = extension(map, "KHR_materials_anisotropy");
+    out->anisotropy = number_or(anisotropy, "anisotropyStrength", 0.0);
+    out->anisotropy_rotation_rad = number_or(anisotropy, "anisotropyRotation", 0.0);
+    out->anisotropy_texture = extension_texture(anisotropy, "anisotropyTexture");
+
+    const Value &draft = extension(map, "KHR_materials_retroreflection");
+    const Value &retro = draft.IsObject() ? draft : extension(map, "EXT_materials_retroreflection");
+    out->retroreflection = number_or(retro, "retroreflectionFactor", 0.0);
+    out->retroreflection_texture = extension_texture(retro, "retroreflectionTexture");
+}
+
+// The colour of KHR_materials_volume_scatter has had two names so far.
+void copy_scattering(const tinygltf::ExtensionMap &map, ppmi_gltf_scattering *out)
+{
+    const Value &diffuse = extension(map, "KHR_materials_diffuse_transmission");
+    out->diffuse_transmission = number_or(diffuse, "diffuseTransmissionFactor", 0.0);
+    out->diffuse_transmission_texture = extension_texture(diffuse, "diffuseTransmissionTexture");
+    numbers_or(diffuse, "diffuseTransmissionColorFactor", out->diffuse_transmission_color, 3, 1.0);
+    out->diffuse_transmission_color_texture =
+        extension_texture(diffuse, "diffuseTransmissionColorTexture");
+
+    const Value &scatter = extension(map, "KHR_materials_volume_scatter");
+    const bool is_factor = member(scatter, "multiscatterColorFactor").IsArray();
+    numbers_or(scatter, is_factor ? "multiscatterColorFactor" : "multiscatterColor",
+               out->multiscatter_color, 3, 0.0);
+    out->multiscatter_color_texture = extension_texture(scatter, "multiscatterColorTexture");
+    out->scatter_anisotropy = number_or(scatter, "scatterAnisotropy", 0.0);
+}
+
+void copy_specular_glossiness(const tinygltf::ExtensionMap &map, ppmi_gltf_specular_glossiness *out)
+{
+    const Value &from = extension(map, "KHR_materials_pbrSpecularGlossiness");
+    out->is_given = from.IsObject();
+    numbers_or(from, "diffuseFactor", out->diffuse, 4, 1.0);
+    out->diffuse_texture = extension_texture(from, "diffuseTexture");
+    numbers_or(from, "specularFactor", out->specular, 3, 1.0);
+    out->glossiness = number_or(from, "glossinessFactor", 1.0);
+    out->specular_glossiness_texture = extension_texture(from, "specularGlossinessTexture");
 }
 
 // KHR_materials_*; the defaults are the extensions'.
@@ -137,6 +211,10 @@ void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material
     out->attenuation_distance = number_or(volume, "attenuationDistance", 0.0);
     numbers_or(volume, "attenuationColor", out->attenuation_color, 3, 1.0);
     out->dispersion = number_or(extension(map, "KHR_materials_dispersion"), "dispersion", 0.0);
+    copy_clearcoat_and_sheen(map, &out->layers);
+    copy_highlights(map, &out->layers);
+    copy_scattering(map, &out->scattering);
+    copy_specular_glossiness(map, &out->specular_glossiness);
 }
 
 ppmi_gltf_material copy_material(const tinygltf::Material &from)
@@ -156,6 +234,7 @@ ppmi_gltf_material copy_material(const tinygltf::Material &from)
     out.alpha_mode = from.alphaMode.c_str();
     out.alpha_cutoff = from.alphaCutoff;
     out.double_sided = from.doubleSided;
+    out.has_occlusion = from.occlusionTexture.index >= 0;
     copy_material_extensions(from, &out);
     out.priority = number_or(from.extras, "ppm_priority", 0.0);
     return out;
@@ -224,6 +303,37 @@ const ppmi_gltf_attribute *copy_attributes(Document *document,
     return document->attribute_lists.back().data();
 }
 
+// The numbers of an array; what is no integer is left out.
+const int32_t *copy_integers(Document *document, const Value &from, uint32_t *count)
+{
+    std::vector<int32_t> list;
+    for (size_t i = 0; i < from.ArrayLen(); ++i) {
+        if (from.Get(static_cast<int>(i)).IsInt()) {
+            list.push_back(from.Get(static_cast<int>(i)).GetNumberAsInt());
+        }
+    }
+    *count = static_cast<uint32_t>(list.size());
+    document->variant_lists.push_back(std::move(list));
+    return document->variant_lists.back().data();
+}
+
+void copy_mappings(Document *document, const Value &from, ppmi_gltf_primitive *out)
+{
+    std::vector<ppmi_gltf_mapping> list;
+    for (size_t i = 0; i < from.ArrayLen(); ++i) {
+        const Value &item = from.Get(static_cast<int>(i));
+        ppmi_gltf_mapping mapping = {};
+        mapping.material = index_or(item, "material", -1);
+        mapping.variants =
+            copy_integers(document, member(item, "variants"), &mapping.variant_count);
+        list.push_back(mapping);
+    }
+    if (list.empty()) return;
+    out->mapping_count = static_cast<uint32_t>(list.size());
+    document->mapping_lists.push_back(std::move(list));
+    out->mappings = document->mapping_lists.back().data();
+}
+
 ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive &from)
 {
     ppmi_gltf_primitive out = {};
@@ -233,6 +343,8 @@ ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive
     out.attributes = copy_attributes(document, from.attributes, &out.attribute_count);
     out.has_targets = !from.targets.empty();
     out.is_draco = from.extensions.count("KHR_draco_mesh_compression") > 0;
+    copy_mappings(document,
+                  member(extension(from.extensions, "KHR_materials_variants"), "mappings"), &out);
     return out;
 }
 
@@ -302,6 +414,7 @@ ppmi_gltf_light copy_light(const tinygltf::Light &from)
     out.intensity = from.intensity;
     out.inner_cone_rad = from.spot.innerConeAngle;
     out.outer_cone_rad = from.spot.outerConeAngle;
+    out.has_range = from.range > 0.0;
     return out;
 }
 
@@ -319,6 +432,20 @@ void copy_all(const std::vector<From> &from, std::vector<To> *items, const To **
     *out_count = items->size();
 }
 
+// The names of KHR_materials_variants; the check has made an object with a name of each.
+void copy_variants(Document *d)
+{
+    const Value &list =
+        member(extension(d->model.extensions, "KHR_materials_variants"), "variants");
+    for (size_t i = 0; i < list.ArrayLen(); ++i) {
+        const Value &name = member(list.Get(static_cast<int>(i)), "name");
+        d->variant_strings.push_back(name.IsString() ? name.Get<std::string>() : "");
+        d->variant_names.push_back(d->variant_strings.back().c_str());
+    }
+    d->variants = d->variant_names.data();
+    d->variant_count = d->variant_names.size();
+}
+
 void copy_model(Document *d)
 {
     const tinygltf::Model &model = d->model;
@@ -329,6 +456,9 @@ void copy_model(Document *d)
     copy_all(model.extensionsRequired, &d->required_names, &names, &d->required_count, text);
     d->extensions_required = d->required_names.data();
     d->generator = model.asset.generator.c_str();
+    d->copyright = model.asset.copyright.c_str();
+    d->xmp_packet = index_or(extension(model.asset.extensions, "KHR_xmp_json_ld"), "packet", -1);
+    copy_variants(d);
     d->default_scene = model.defaultScene;
     copy_all(model.scenes, &d->scene_items, &d->scenes, &d->scene_count,
              [](const tinygltf::Scene &s) {

@@ -52,12 +52,21 @@ typedef struct ppmi_gltf_attribute {
     int32_t accessor;
 } ppmi_gltf_attribute;
 
+/* KHR_materials_variants: the material of a primitive in some variants. */
+typedef struct ppmi_gltf_mapping {
+    int32_t material;
+    uint32_t variant_count;
+    const int32_t *variants; /* indices into the document's */
+} ppmi_gltf_mapping;
+
 typedef struct ppmi_gltf_primitive {
     int32_t mode, indices, material;
     uint32_t attribute_count;
     const ppmi_gltf_attribute *attributes;
     bool has_targets; /* morph targets */
     bool is_draco;    /* KHR_draco_mesh_compression is given */
+    uint32_t mapping_count;
+    const ppmi_gltf_mapping *mappings;
 } ppmi_gltf_primitive;
 
 typedef struct ppmi_gltf_mesh {
@@ -99,6 +108,7 @@ typedef struct ppmi_gltf_light {
     double color[3];
     double intensity;
     double inner_cone_rad, outer_cone_rad;
+    bool has_range; /* a distance where it ends is given */
 } ppmi_gltf_light;
 
 typedef struct ppmi_gltf_texture_info {
@@ -108,6 +118,34 @@ typedef struct ppmi_gltf_texture_info {
     bool has_transform;
     double offset[2], rotation_rad, uv_scale[2];
 } ppmi_gltf_texture_info;
+
+/* What lies on a surface or bends its highlight; each extension's defaults where it is absent. */
+typedef struct ppmi_gltf_layers {
+    double clearcoat, clearcoat_roughness;
+    ppmi_gltf_texture_info clearcoat_texture, clearcoat_roughness_texture, clearcoat_normal_texture;
+    double sheen_color[3], sheen_roughness;
+    ppmi_gltf_texture_info sheen_color_texture, sheen_roughness_texture;
+    double iridescence, iridescence_ior, iridescence_min_nm, iridescence_max_nm;
+    ppmi_gltf_texture_info iridescence_texture, iridescence_thickness_texture;
+    double anisotropy, anisotropy_rotation_rad;
+    ppmi_gltf_texture_info anisotropy_texture;
+    double retroreflection;
+    ppmi_gltf_texture_info retroreflection_texture;
+} ppmi_gltf_layers;
+
+/* Light that gets to the other side without being refracted, and light inside. */
+typedef struct ppmi_gltf_scattering {
+    double diffuse_transmission, diffuse_transmission_color[3];
+    ppmi_gltf_texture_info diffuse_transmission_texture, diffuse_transmission_color_texture;
+    double multiscatter_color[3], scatter_anisotropy;
+    ppmi_gltf_texture_info multiscatter_color_texture;
+} ppmi_gltf_scattering;
+
+typedef struct ppmi_gltf_specular_glossiness {
+    bool is_given;
+    double diffuse[4], specular[3], glossiness;
+    ppmi_gltf_texture_info diffuse_texture, specular_glossiness_texture;
+} ppmi_gltf_specular_glossiness;
 
 typedef struct ppmi_gltf_material {
     const char *name;
@@ -125,7 +163,11 @@ typedef struct ppmi_gltf_material {
     ppmi_gltf_texture_info transmission_texture;
     double thickness, attenuation_color[3], attenuation_distance; /* distance 0: infinite */
     double dispersion;                                            /* 20 / Abbe number; 0: none */
-    double priority; /* extras.ppm_priority; 0 where it is not given */
+    ppmi_gltf_layers layers;
+    ppmi_gltf_scattering scattering;
+    ppmi_gltf_specular_glossiness specular_glossiness;
+    bool has_occlusion; /* occlusionTexture is given */
+    double priority;    /* extras.ppm_priority; 0 where it is not given */
 } ppmi_gltf_material;
 
 typedef struct ppmi_gltf_texture {
@@ -140,10 +182,14 @@ typedef struct ppmi_gltf_sampler {
 /* Everything is owned by the document and valid until it is destroyed. */
 typedef struct ppmi_gltf_document {
     const char *generator; /* asset.generator */
+    const char *copyright; /* asset.copyright */
+    int32_t xmp_packet;    /* of the asset, KHR_xmp_json_ld */
     int32_t default_scene;
     size_t used_count, required_count;
     const char *const *extensions_used;
     const char *const *extensions_required;
+    size_t variant_count;
+    const char *const *variants; /* their names */
     size_t scene_count, node_count, mesh_count, accessor_count, buffer_view_count, material_count,
         texture_count, sampler_count, camera_count, light_count;
     const ppmi_gltf_scene *scenes;

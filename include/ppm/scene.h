@@ -69,6 +69,10 @@ typedef struct ppm_image_desc {
 PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *desc,
                                        ppm_image_id *out_id);
 
+/* The mean of an image's pixels: linear Rec.709 for PPM_IMAGE_COLOR, and alpha, 1 without. Returns
+ * OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float out_rgba[4]);
+
 enum { PPM_WRAP_REPEAT = 0, PPM_WRAP_CLAMP = 1, PPM_WRAP_MIRROR = 2 };
 enum { PPM_FILTER_LINEAR = 0, PPM_FILTER_NEAREST = 1 };
 
@@ -164,6 +168,13 @@ typedef struct ppm_material_desc {
                                             specular reflection that goes back where the light came
                                             from, 0..1; default 0 */
     ppm_texture retroreflection_texture; /* R */
+
+    uint32_t roughness_is_glossiness; /* non-zero: roughness is a glossiness, and A of
+                                         metallic_roughness_texture multiplies it. The perceptual
+                                         roughness is 1 less the product, and nothing multiplies
+                                         metallic (KHR_materials_pbrSpecularGlossiness) */
+    uint32_t emission_takes_vertex_color; /* non-zero: vertex colours multiply the emission, as they
+                                             do base_color (KHR_materials_unlit) */
 } ppm_material_desc;
 
 /* Fills in the defaults and size. */

@@ -33,7 +33,7 @@ static float triangle_power(const ppmi_lights *lights, const ppmi_emitter *e)
     const ppmi_material *material =
         &lights->scene->materials[emitter_primitive(lights->scene, e)->material];
     float mean = vec3_mean(vec3_load(material->desc.emission));
-    if (material->desc.emission_texture.image > 0) {
+    if (material->desc.emission_texture.image > 0 || material->desc.emission_takes_vertex_color) {
         const float floor_share = 0.05f;
         float sum = 0.0f;
         for (int i = 0; i < 4; i++) {

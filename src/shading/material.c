@@ -32,6 +32,18 @@ static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surfa
     return vec3_dot(n, surface->ng) > 0.0f && vec3_is_finite(n) ? n : surface->ns;
 }
 
+/* KHR_materials_pbrSpecularGlossiness has its glossiness in alpha, beside the specular colour. */
+static float roughness(const ppm_material_desc *desc, ppmi_texel texel)
+{
+    if (desc->roughness_is_glossiness) return 1.0f - desc->roughness * texel.a;
+    return desc->roughness * texel.g;
+}
+
+static float metallic(const ppm_material_desc *desc, ppmi_texel texel)
+{
+    return desc->roughness_is_glossiness ? desc->metallic : desc->metallic * texel.b;
+}
+
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
                             ppmi_material_point *out_point)
 {
@@ -45,8 +57,8 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
         .base_color = {unit(desc->base_color[0] * base.r * vertex[0]),
                        unit(desc->base_color[1] * base.g * vertex[1]),
                        unit(desc->base_color[2] * base.b * vertex[2])},
-        .metallic = unit(desc->metallic * rough.b),
-        .roughness = unit(desc->roughness * rough.g),
+        .metallic = unit(metallic(desc, rough)),
+        .roughness = unit(roughness(desc, rough)),
         .ior = desc->ior,
         .specular = unit(desc->specular * lookup(scene, surface, &desc->specular_texture).a),
         .specular_color = {ppmi_max(desc->specular_color[0] * specular_color.r, 0.0f),

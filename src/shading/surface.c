@@ -166,5 +166,12 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
         radiance = vec3_mul(radiance, vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f),
                                            ppmi_max(texel.b, 0.0f)));
     }
+    if (material->desc.emission_takes_vertex_color) {
+        float vertex[4];
+        ppmi_surface_vertex_color(surface, vertex);
+        for (int i = 0; i < 3; i++)
+            vertex[i] = ppmi_max(vertex[i], 0.0f);
+        radiance = vec3_mul(radiance, vec3_load(vertex));
+    }
     return radiance;
 }

@@ -171,6 +171,56 @@ static void the_helmet_has_the_images_of_its_material(void **state)
     assert_int_not_equal(m->emission_texture.image, 0);
 }
 
+/* The name of the material of the first primitive. */
+static const char *variant_material(gltf_fixture *f, const char *variant)
+{
+    f->options.variant = variant;
+    assert_gltf_status(f, import_asset(f, "gltf-blender/roundtrip/18_variants/18_variants.gltf"),
+                       PPM_STATUS_OK);
+    return f->scene->materials[f->scene->meshes[0].primitives[0].material].name;
+}
+
+static void blenders_variants_change_materials(void **state)
+{
+    gltf_fixture *f = *state;
+    char red[64], blue[64];
+    snprintf(red, sizeof red, "%s", variant_material(f, "Variant_Red"));
+    snprintf(blue, sizeof blue, "%s", variant_material(f, "Variant_Blue"));
+    assert_string_not_equal(red, blue);
+}
+
+/* What each file is there for (MANIFEST.md) arrives in one of its materials. */
+static void files_of_extensions_have_their_values_in_their_materials(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *path;
+        size_t at; /* of a float in the material that is not 0 */
+    } cases[] = {
+#define AT(member) offsetof(ppm_material_desc, member)
+        {"gltf/ClearCoatTest/ClearCoatTest.gltf", AT(clearcoat)},
+        {"gltf/SheenCloth.glb", AT(sheen_color)},
+        {"gltf/AnisotropyStrengthTest.glb", AT(anisotropy)},
+        {"gltf/ExtIridescence/ExtIridescence.gltf", AT(iridescence)},
+        {"gltf/ExtVolumeScatterDiffuseTransmission/ExtVolumeScatterDiffuseTransmission.gltf",
+         AT(diffuse_transmission)},
+        {"gltf/ExtVolumeScatterDiffuseTransmission/ExtVolumeScatterDiffuseTransmission.gltf",
+         AT(multiscatter_color)},
+        {"gltf-blender/roundtrip/19_sheen/19_sheen.gltf", AT(sheen_color)},
+        {"gltf-blender/roundtrip/25_anisotropy/25_anisotropy.gltf", AT(anisotropy)},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        float greatest = 0.0f;
+        assert_gltf_status(f, import_asset(f, cases[i].path), PPM_STATUS_OK);
+        for (uint32_t k = 0; k < f->scene->material_count; ++k) {
+            float value;
+            memcpy(&value, (const char *)&f->scene->materials[k].desc + cases[i].at, sizeof value);
+            greatest = fmaxf(greatest, value);
+        }
+        if (!(greatest > 0.0f)) fail_msg("%s: nothing arrived", cases[i].path);
+    }
+}
+
 int main(void)
 {
     struct stat info;
@@ -185,6 +235,10 @@ int main(void)
                                         gltf_teardown),
         cmocka_unit_test_setup_teardown(the_helmet_has_the_images_of_its_material, gltf_setup,
                                         gltf_teardown),
+        cmocka_unit_test_setup_teardown(blenders_variants_change_materials, gltf_setup,
+                                        gltf_teardown),
+        cmocka_unit_test_setup_teardown(files_of_extensions_have_their_values_in_their_materials,
+                                        gltf_setup, gltf_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,11 +6,13 @@
 static const char document[] =
     "{'asset':{'version':'2.0'},'nodes':[{'mesh':0,'name':'a','children':[1,2]},"
     "{'camera':0},{'extensions':{'KHR_lights_punctual':{'light':0}}}],"
-    "'extensionsUsed':['EXT_unknown','KHR_lights_punctual'],"
+    "'extensionsUsed':['EXT_unknown','KHR_lights_punctual','KHR_materials_variants'],"
     "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':1}},{'type':'x'}],"
-    "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point'}]}},"
-    "'materials':[{'name':'m','emissiveFactor':'x'}],"
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':0},'indices':1,'material':0}]}],"
+    "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point'}]},"
+    "'KHR_materials_variants':{'variants':[{'name':'a'},{}]}},"
+    "'materials':[{'name':'m','emissiveFactor':'x'},{'extensions':{'KHR_materials_unlit':{}}}],"
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':0},'indices':1,'material':0,"
+    "'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,'variants':[0]}]}}}]}],"
     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
     "{'componentType':5121,'count':3,'type':'SCALAR','sparse':{'count':2,"
     "'indices':{'bufferView':1,'componentType':5121},'values':{'bufferView':1}}}],"
@@ -26,6 +28,7 @@ static void every_allocation_may_fail(void **state)
     size_t n = 0;
     while (status == PPM_STATUS_OUT_OF_MEMORY) {
         gltf_reset(f);
+        f->options.variant = "a";
         ppmi_alloc_fail_at(f->context, ++n);
         status = gltf_import(f, document);
         ppmi_alloc_fail_at(f->context, 0);
@@ -34,6 +37,7 @@ static void every_allocation_may_fail(void **state)
     assert_gltf_status(f, status, PPM_STATUS_OK);
     assert_true(n > 20);
     assert_int_equal(f->scene->meshes[0].primitives[0].triangle_count, 1);
+    assert_int_not_equal(f->scene->materials[0].desc.emission_takes_vertex_color, 0);
 }
 
 int main(void)

@@ -36,6 +36,47 @@ static void assert_material_refused(void)
     ppm_material_desc_init(&desc);
 }
 
+static ppm_image_id add_pixels(const void *pixels, int32_t type, uint32_t channels, int32_t role)
+{
+    const ppm_image_desc image = {.size = sizeof image,
+                                  .role = role,
+                                  .pixels = pixels,
+                                  .pixel_type = type,
+                                  .width = 2,
+                                  .height = 1,
+                                  .channels = channels};
+    ppm_image_id id = 0;
+    assert_int_equal(ppm_scene_add_image(test.scene, &image, &id), PPM_STATUS_OK);
+    return id;
+}
+
+static void assert_mean(ppm_image_id id, double r, double g, double b, double a)
+{
+    float mean[4];
+    assert_int_equal(ppm_scene_image_mean(test.scene, id, mean), PPM_STATUS_OK);
+    assert_near(mean[0], r, 1e-4);
+    assert_near(mean[1], g, 1e-4);
+    assert_near(mean[2], b, 1e-4);
+    assert_near(mean[3], a, 1e-4);
+}
+
+static void the_mean_of_an_image_is_linear_and_alpha_is_1_without(void **state)
+{
+    (void)state;
+    static const uint8_t bytes[8] = {255, 0, 188, 255, 0, 188, 188, 51};
+    static const float floats[8] = {1, 2, 3, 4, 3, 2, 1, 0};
+    float mean[4];
+    assert_int_equal(ppm_scene_image_mean(test.scene, 1, mean), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_image_mean(test.scene, 0, mean), PPM_STATUS_INVALID_ARGUMENT);
+    const double half = 0.50289, low = 188.0 / 255.0; /* sRGB 188, decoded and not */
+    assert_mean(add_pixels(bytes, PPM_PIXELS_U8, 4, PPM_IMAGE_COLOR), 0.5, half / 2, half, 0.6);
+    assert_mean(add_pixels(bytes, PPM_PIXELS_U8, 4, PPM_IMAGE_DATA), 0.5, low / 2, low, 0.6);
+    assert_mean(add_pixels(bytes, PPM_PIXELS_U8, 3, PPM_IMAGE_DATA), 1.0, 0.0, low, 1.0);
+    assert_mean(add_pixels(bytes, PPM_PIXELS_U8, 1, PPM_IMAGE_DATA), 0.5, 0.5, 0.5, 1.0);
+    assert_mean(add_pixels(floats, PPM_PIXELS_F32, 2, PPM_IMAGE_COLOR), 2.0, 2.0, 2.0, 3.0);
+    assert_mean(add_pixels(floats, PPM_PIXELS_F32, 4, PPM_IMAGE_COLOR), 2.0, 2.0, 2.0, 2.0);
+}
+
 static void factors_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -295,6 +336,7 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(factors_out_of_range_are_refused),
+        WITH_SCENE(the_mean_of_an_image_is_linear_and_alpha_is_1_without),
         WITH_SCENE(choices_out_of_range_are_refused),
         WITH_SCENE(textures_must_exist),
         WITH_SCENE(defaults_are_those_of_the_header),

@@ -105,6 +105,44 @@ static void textures_multiply_the_factors(void **state)
     assert_near(point.transmission, 0.2, 1e-6);
 }
 
+static void vertex_colours_tint_emission_where_the_material_says_so(void **state)
+{
+    (void)state;
+    const float colors[16] = {1, 0.5f, 0, 1, 1, 0.5f, 0, 1, 1, 0.5f, 0, 1, 1, 0.5f, 0, 1};
+    ppm_material_desc desc = defaults();
+    desc.emission[0] = desc.emission[1] = desc.emission[2] = 2.0f;
+    place_quad(&desc, colors, NULL);
+    desc.emission_takes_vertex_color = 1;
+    place_quad(&desc, colors, NULL);
+    for (uint32_t i = 0; i < 2; i++) {
+        const ppmi_surface surface = surface_at(i, 0, 0.2f, 0.3f);
+        const ppmi_vec3 radiance = ppmi_surface_emission(test.scene, &surface, surface.ng);
+        assert_near(radiance.x, 2.0, 1e-6);
+        assert_near(radiance.y, i == 0 ? 2.0 : 1.0, 1e-6);
+        assert_near(radiance.z, i == 0 ? 2.0 : 0.0, 1e-6);
+    }
+}
+
+static void glossiness_stands_in_alpha_and_is_one_less_roughness(void **state)
+{
+    (void)state;
+    ppm_material_desc desc = defaults();
+    desc.metallic = 0.5f;
+    desc.roughness = 0.5f; /* glossiness */
+    desc.roughness_is_glossiness = 1;
+    desc.metallic_roughness_texture.image = one_texel(0.0f, 0.9f, 0.0f, 0.8f);
+    place_quad(&desc, NULL, NULL);
+    desc.metallic_roughness_texture.image = 0;
+    place_quad(&desc, NULL, NULL);
+    for (uint32_t i = 0; i < 2; i++) {
+        const ppmi_surface surface = surface_at(i, 0, 0.2f, 0.3f);
+        ppmi_material_point point;
+        ppmi_material_evaluate(test.scene, &surface, &point);
+        assert_near(point.roughness, i == 0 ? 0.6 : 0.5, 1e-6);
+        assert_near(point.metallic, 0.5, 1e-6);
+    }
+}
+
 static void a_normal_map_tilts_the_normal(void **state)
 {
     (void)state;
@@ -222,6 +260,8 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(textures_multiply_the_factors),
+        WITH_SCENE(vertex_colours_tint_emission_where_the_material_says_so),
+        WITH_SCENE(glossiness_stands_in_alpha_and_is_one_less_roughness),
         WITH_SCENE(a_normal_map_tilts_the_normal),
         WITH_SCENE(a_flat_normal_map_changes_nothing),
         WITH_SCENE(alpha_follows_its_mode),

@@ -1,0 +1,102 @@
+/* What lets light to the other side, and what is there: KHR_materials_transmission, _volume,
+ * _dispersion, _diffuse_transmission, and the draft _volume_scatter. */
+#include <math.h>
+
+#include "gltf/gltf_material.h"
+
+/* Henyey and Greenstein's function is a pulse at 1 and at -1, which the draft excludes. */
+#define MAX_SCATTER_ANISOTROPY 0.999
+
+/* include/ppm/import.h, PPM_TRANSMISSION_POLICY_. Blender's exporter leaves out the thickness of
+ * glass, but what only lets light seep through is a leaf or a shade for it as well. */
+static int32_t transmission_kind(const ppmi_gltf_reader *reader, const ppmi_gltf_material *from)
+{
+    const bool is_blender_glass = reader->from_blender && from->transmission > 0.0;
+    switch (reader->options->transmission) {
+    case PPM_TRANSMISSION_POLICY_SOLID:
+        return PPM_TRANSMISSION_SOLID;
+    case PPM_TRANSMISSION_POLICY_THIN:
+        return PPM_TRANSMISSION_THIN;
+    default:
+        return from->thickness > 0.0 || is_blender_glass ? PPM_TRANSMISSION_SOLID
+                                                         : PPM_TRANSMISSION_THIN;
+    }
+}
+
+static void convert_transmission(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_material *from = c->from;
+    ppmi_gltf_set(c, "KHR_materials_transmission.transmissionFactor", &from->transmission, 1, 0.0,
+                  1.0, &c->desc.transmission);
+    ppmi_gltf_set_texture(c, "KHR_materials_transmission.transmissionTexture",
+                          &from->transmission_texture, PPM_IMAGE_DATA,
+                          &c->desc.transmission_texture);
+    ppmi_gltf_set(c, "KHR_materials_dispersion.dispersion", &from->dispersion, 1, 0.0, 1000.0,
+                  &c->desc.dispersion);
+}
+
+static void convert_diffuse_transmission(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_scattering *from = &c->from->scattering;
+    ppm_material_desc *desc = &c->desc;
+    ppmi_gltf_set(c, "KHR_materials_diffuse_transmission.diffuseTransmissionFactor",
+                  &from->diffuse_transmission, 1, 0.0, 1.0, &desc->diffuse_transmission);
+    ppmi_gltf_set_texture(c, "KHR_materials_diffuse_transmission.diffuseTransmissionTexture",
+                          &from->diffuse_transmission_texture,
+                          ppmi_gltf_alpha_role(c, &from->diffuse_transmission_texture,
+                                               &from->diffuse_transmission_color_texture),
+                          &desc->diffuse_transmission_texture);
+    ppmi_gltf_set(c, "KHR_materials_diffuse_transmission.diffuseTransmissionColorFactor",
+                  from->diffuse_transmission_color, 3, 0.0, 1.0, desc->diffuse_transmission_color);
+    ppmi_gltf_set_texture(c, "KHR_materials_diffuse_transmission.diffuseTransmissionColorTexture",
+                          &from->diffuse_transmission_color_texture, PPM_IMAGE_COLOR,
+                          &desc->diffuse_transmission_color_texture);
+}
+
+/* A picture of the surface cannot say what is where inside: its mean does for all of it. */
+static void convert_medium_color(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_scattering *from = &c->from->scattering;
+    ppm_texture texture = {0};
+    float mean[4];
+    ppmi_gltf_set(c, "KHR_materials_volume_scatter.multiscatterColorFactor",
+                  from->multiscatter_color, 3, 0.0, 1.0, c->desc.multiscatter_color);
+    ppmi_gltf_set_texture(c, "KHR_materials_volume_scatter.multiscatterColorTexture",
+                          &from->multiscatter_color_texture, PPM_IMAGE_COLOR, &texture);
+    if (ppm_scene_image_mean(c->reader->scene, texture.image, mean) != PPM_STATUS_OK) return;
+    for (int i = 0; i < 3; ++i) {
+        c->desc.multiscatter_color[i] *= fminf(fmaxf(mean[i], 0.0f), 1.0f);
+    }
+    ppmi_gltf_note_feature(c->reader, "KHR_materials_volume_scatter", PPM_FEATURE_APPROXIMATED,
+                           "the medium inside is the same everywhere, of the mean of "
+                           "multiscatterColorTexture");
+}
+
+static void convert_volume(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_material *from = c->from;
+    const ppmi_gltf_scattering *scattering = &from->scattering;
+    ppm_material_desc *desc = &c->desc;
+    ppmi_gltf_set(c, "KHR_materials_volume.attenuationColor", from->attenuation_color, 3, 0.0, 1.0,
+                  desc->attenuation_color);
+    ppmi_gltf_set(c, "KHR_materials_volume.attenuationDistance", &from->attenuation_distance, 1,
+                  0.0, PPMI_GLTF_HUGE, &desc->attenuation_distance_m);
+    convert_medium_color(c);
+    ppmi_gltf_set(c, "KHR_materials_volume_scatter.scatterAnisotropy",
+                  &scattering->scatter_anisotropy, 1, -MAX_SCATTER_ANISOTROPY,
+                  MAX_SCATTER_ANISOTROPY, &desc->scatter_anisotropy_g);
+}
+
+void ppmi_gltf_convert_inside(ppmi_gltf_conversion *c)
+{
+    if (!(c->from->transmission > 0.0 || c->from->scattering.diffuse_transmission > 0.0)) return;
+    convert_transmission(c);
+    convert_diffuse_transmission(c);
+    convert_volume(c);
+    c->desc.transmission_kind = transmission_kind(c->reader, c->from);
+    if (c->desc.transmission_kind == PPM_TRANSMISSION_SOLID) {
+        c->reader->tally.solid_glass++;
+    } else {
+        c->reader->tally.thin_glass++;
+    }
+}
