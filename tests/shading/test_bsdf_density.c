@@ -168,10 +168,12 @@ static void check_lobes(const bsdf_case *item, const ppmi_bsdf *bsdf, void *user
 {
     ppmi_rng *rng = user;
     (void)item;
-    for (int i = 0; i < 200; i++) {
+    for (int k = 0; k < 200; k++) {
         const ppmi_vec3 wi = bsdf_random_direction(rng);
         double sum = 0.0, shares = 0.0;
-        for (uint32_t lobe = 1; lobe <= 4; lobe *= 2) {
+        for (uint32_t i = 0; i < PPMI_LOBE_COUNT; i++) {
+            const uint32_t lobe = 1u << i;
+            if (lobe == PPMI_LOBE_PHASE) continue;
             const double share = (double)ppmi_bsdf_probability(bsdf, lobe);
             sum += share * (double)ppmi_bsdf_pdf(bsdf, wi, lobe);
             shares += share;
@@ -180,7 +182,9 @@ static void check_lobes(const bsdf_case *item, const ppmi_bsdf *bsdf, void *user
         const double all = (double)ppmi_bsdf_pdf(bsdf, wi, PPMI_LOBE_ALL);
         assert_near(sum, all, 1e-5 * all);
         ppmi_vec3 f = vec3_splat(0.0f);
-        for (uint32_t lobe = 1; lobe <= 4; lobe *= 2) {
+        for (uint32_t i = 0; i < PPMI_LOBE_COUNT; i++) {
+            const uint32_t lobe = 1u << i;
+            if (lobe == PPMI_LOBE_PHASE) continue;
             f = vec3_add(f, ppmi_bsdf_eval(bsdf, bsdf_albedo(), wi, lobe, PPMI_TRANSPORT_POWER));
         }
         const ppmi_vec3 whole =

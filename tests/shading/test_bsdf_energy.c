@@ -128,6 +128,19 @@ static void white_plastic_and_metal_return_all_light(void **state)
     family_check(&test.family);
 }
 
+static void white_layers_return_all_light(void **state)
+{
+    (void)state;
+    static const int kinds[] = {
+        KIND_WHITE_COATED_PLASTIC, KIND_WHITE_COATED_METAL,       KIND_WHITE_ROUGH_COATED_METAL,
+        KIND_WHITE_SHEEN,          KIND_WHITE_COATED_SHEEN_METAL, KIND_WHITE_BRUSHED_METAL,
+        KIND_WHITE_LEAF,           KIND_WHITE_RETRO_METAL,        KIND_WHITE_EVERYTHING};
+    energy_test test = {.seed = 3000};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        check_kind_is_white(&test, kinds[k]);
+    family_check(&test.family);
+}
+
 static void lambert_returns_its_colour(void **state)
 {
     (void)state;
@@ -236,6 +249,7 @@ int main(void)
         cmocka_unit_test(bsdfs_are_reciprocal),
         cmocka_unit_test(no_bsdf_makes_energy),
         cmocka_unit_test(white_plastic_and_metal_return_all_light),
+        cmocka_unit_test(white_layers_return_all_light),
         cmocka_unit_test(lambert_returns_its_colour),
         cmocka_unit_test(smooth_glass_splits_light_as_fresnel_says),
         cmocka_unit_test(nearly_smooth_glass_is_like_smooth_glass),
