@@ -83,11 +83,11 @@ static float top_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table 
     const float coat = coat_albedo(layers, albedo, cos_coat);
     const float sheen = sheen_albedo(layers, albedo, cosine);
     if (coat == 0.0f || sheen == 0.0f) return coat + sheen;
-    ppmi_lobe_nodes nodes;
-    ppmi_lobe_sheen_nodes(albedo->lobes, layers->sheen_roughness, cosine, &nodes);
+    float nodes[PPMI_LOBE_NODES];
+    ppmi_lobe_sheen_nodes(albedo->lobes, layers->sheen_roughness, cosine, nodes);
     float passing = 0.0f;
     for (int k = 0; k < PPMI_LOBE_NODES; k++)
-        passing += ppmi_min(1.0f - coat, 1.0f - coat_albedo(layers, albedo, nodes.cos_i[k]));
+        passing += ppmi_min(1.0f - coat, 1.0f - coat_albedo(layers, albedo, nodes[k]));
     return coat + sheen * passing / PPMI_LOBE_NODES;
 }
 
@@ -131,7 +131,7 @@ static ppmi_albedo_pair spec_pair(const ppmi_bsdf *bsdf, const ppmi_albedo_table
     return ppmi_lobe_wide_albedo(albedo->lobes, bsdf->roughness, strength, w);
 }
 
-/* What leaves nothing to a diffuse base: cosines that stand for the whole lobe. */
+/* Cosines that stand for the whole lobe. Returns their number. */
 static int spec_nodes(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float cosine,
                       ppmi_lobe_nodes *nodes)
 {
@@ -144,6 +144,33 @@ static int spec_nodes(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, fl
     const float width = sqrtf(sqrtf(layers->alpha.x * layers->alpha.y));
     ppmi_lobe_ggx_nodes(albedo->lobes, width, cosine, nodes);
     return PPMI_LOBE_NODES;
+}
+
+/* Albedo of the speculars under the film, by its strongest channel. Schlick's curve between the
+ * film's ends is integrated by the table, only what the film adds to it by the nodes: the horizon
+ * would need many. */
+static float film_albedo(const ppmi_bsdf_layers *layers, ppmi_albedo_pair pair,
+                         const ppmi_lobe_nodes *nodes, int count)
+{
+    const float f0 = vec3_max_component(film_at(layers, layers->film_f0, 1.0f));
+    float beyond = 0.0f;
+    for (int k = 0; k < count; k++) {
+        const float c = nodes->cos_h[k];
+        beyond += vec3_max_component(film_at(layers, layers->film_f0, c)) - schlick(f0, c);
+    }
+    return pair_value(pair, f0, 1.0f) + (pair.a + pair.b) * beyond / (float)count;
+}
+
+/* Share of the lobe that passes the layers above. */
+static float spec_passing(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
+                          float here, const ppmi_lobe_nodes *nodes, int count)
+{
+    float passing = 0.0f;
+    for (int k = 0; k < count; k++) {
+        const float c = nodes->cos_i[k];
+        passing += ppmi_min(here, left_over(layers, albedo, c, c));
+    }
+    return passing / (float)count;
 }
 
 static bool has_speculars(const ppmi_bsdf *bsdf)
@@ -171,20 +198,16 @@ static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
     if (is_covered || layers->film > 0.0f) {
         ppmi_lobe_nodes nodes;
         const int count = spec_nodes(bsdf, albedo, w.z, &nodes);
-        const float here = is_covered ? left_over(layers, albedo, cos_coat, w.z) : 1.0f;
-        float passing = 0.0f, film = 0.0f;
-        for (int k = 0; k < count; k++) {
-            const float c = nodes.cos_i[k];
-            const float p = is_covered ? ppmi_min(here, left_over(layers, albedo, c, c)) : 1.0f;
-            passing += p;
-            if (layers->film > 0.0f) {
-                film += p * vec3_max_component(film_at(layers, layers->film_f0, nodes.cos_h[k]));
-            }
+        if (layers->film > 0.0f) {
+            const float film = film_albedo(layers, pair, &nodes, count);
+            dielectric += (film - dielectric) * layers->film;
         }
-        passing /= (float)count;
-        film *= metal / (float)count;
-        dielectric = (1.0f - layers->film) * dielectric * passing + layers->film * film;
-        metal *= passing;
+        if (is_covered) {
+            const float here = left_over(layers, albedo, cos_coat, w.z);
+            const float passing = spec_passing(layers, albedo, here, &nodes, count);
+            dielectric *= passing;
+            metal *= passing;
+        }
     }
     left.dielectric = ppmi_max(left.dielectric - dielectric, 0.0f);
     left.metal = ppmi_max(left.metal - metal, 0.0f);

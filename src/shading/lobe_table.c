@@ -7,48 +7,46 @@
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-typedef struct lobe_sample {
-    float cos_i, cos_h, weight;
-} lobe_sample;
+typedef struct weighted {
+    float value, weight;
+} weighted;
 
-/* Shell's sort, by cos_i: the C library's may allocate. */
-static void sort_samples(lobe_sample *samples, int count)
+/* Shell's sort: the C library's may allocate. */
+static void sort_by_value(weighted *samples, int count)
 {
     for (int gap = count / 2; gap > 0; gap /= 2) {
         for (int i = gap; i < count; i++) {
-            const lobe_sample sample = samples[i];
+            const weighted sample = samples[i];
             int k = i;
-            for (; k >= gap && samples[k - gap].cos_i > sample.cos_i; k -= gap)
+            for (; k >= gap && samples[k - gap].value > sample.value; k -= gap)
                 samples[k] = samples[k - gap];
             samples[k] = sample;
         }
     }
 }
 
-/* The samples in groups of equal weight, each as its means; a sample may be shared by groups. */
-static void make_nodes(lobe_sample *samples, int count, ppmi_lobe_nodes *nodes)
+/* The means of the samples in groups of equal weight, rising; a sample may be shared by groups. */
+static void make_nodes(weighted *samples, int count, float nodes[PPMI_LOBE_NODES])
 {
     double total = 0.0;
-    sort_samples(samples, count);
+    sort_by_value(samples, count);
     for (int i = 0; i < count; i++)
         total += (double)samples[i].weight;
     const double share = total / PPMI_LOBE_NODES;
     int at = 0;
     double left = count > 0 ? (double)samples[0].weight : 0.0;
     for (int n = 0; n < PPMI_LOBE_NODES; n++) {
-        double wanted = share, cos_i = 0.0, cos_h = 0.0, taken = 0.0;
+        double wanted = share, sum = 0.0, taken = 0.0;
         while (wanted > 0.0 && at < count) {
             const double part = left < wanted ? left : wanted;
-            cos_i += part * (double)samples[at].cos_i;
-            cos_h += part * (double)samples[at].cos_h;
+            sum += part * (double)samples[at].value;
             taken += part;
             wanted -= part;
             left -= part;
             if (left > 0.0) break;
             if (++at < count) left = (double)samples[at].weight;
         }
-        nodes->cos_i[n] = taken > 0.0 ? (float)(cos_i / taken) : 0.0f;
-        nodes->cos_h[n] = taken > 0.0 ? (float)(cos_h / taken) : 0.0f;
+        nodes[n] = taken > 0.0 ? (float)(sum / taken) : 0.0f;
     }
 }
 
@@ -67,16 +65,18 @@ static void init_ggx(ppmi_lobe_table *table, const ppmi_vec2 points[POINTS])
         for (int c = 0; c < PPMI_LOBE_COSINES; c++) {
             const float cosine = ppmi_max((float)c / (PPMI_LOBE_COSINES - 1), 1e-3f);
             const ppmi_vec3 wo = at_cosine(cosine);
-            lobe_sample samples[POINTS];
+            weighted to_normal[POINTS], to_half[POINTS];
             int count = 0;
             for (int i = 0; i < POINTS; i++) {
                 const ppmi_vec3 h = ppmi_ggx_sample_visible(alpha, wo, points[i].x, points[i].y);
                 const float cos_h = vec3_dot(wo, h), cos_i = 2.0f * cos_h * h.z - wo.z;
                 if (cos_i <= 0.0f || cos_h <= 0.0f) continue;
                 const float weight = ppmi_ggx_g2(alpha, cosine, cos_i) / ppmi_ggx_g1(alpha, cosine);
-                samples[count++] = (lobe_sample){cos_i, cos_h, weight};
+                to_normal[count] = (weighted){cos_i, weight};
+                to_half[count++] = (weighted){cos_h, weight};
             }
-            make_nodes(samples, count, &table->ggx[r][c]);
+            make_nodes(to_normal, count, table->ggx[r][c].cos_i);
+            make_nodes(to_half, count, table->ggx[r][c].cos_h);
         }
     }
 }
@@ -90,12 +90,12 @@ static float sheen_roughness(int r)
 }
 
 /* Midpoint rule over directions, finer towards the horizon. */
-static float integrate_sheen(float alpha, float cosine, ppmi_lobe_nodes *nodes)
+static float integrate_sheen(float alpha, float cosine, float nodes[PPMI_LOBE_NODES])
 {
     enum { RINGS = 48, SECTORS = 16 };
     const ppmi_vec3 wo = at_cosine(cosine);
     const float lambda_o = ppmi_sheen_lambda(cosine, alpha);
-    lobe_sample samples[RINGS * SECTORS];
+    weighted samples[RINGS * SECTORS];
     double albedo = 0.0;
     for (int i = 0; i < RINGS; i++) {
         const float t = ((float)i + 0.5f) / RINGS, cos_i = t * t;
@@ -107,7 +107,7 @@ static float integrate_sheen(float alpha, float cosine, ppmi_lobe_nodes *nodes)
             const float f = ppmi_sheen_value(alpha, wo, lambda_o, wi, lambda_i);
             /* both halves of the circle; d cos = 2 t dt */
             const float weight = f * cos_i * 2.0f * PPMI_PI / SECTORS * 2.0f * t / RINGS;
-            samples[i * SECTORS + k] = (lobe_sample){cos_i, 1.0f, weight};
+            samples[i * SECTORS + k] = (weighted){cos_i, weight};
             albedo += (double)weight;
         }
     }
@@ -122,7 +122,7 @@ static void init_sheen(ppmi_lobe_table *table)
         for (int c = 0; c < PPMI_LOBE_COSINES; c++) {
             const float root = ppmi_max((float)c / (PPMI_LOBE_COSINES - 1), 0.02f);
             table->sheen_albedo[r][c] =
-                integrate_sheen(roughness * roughness, root * root, &table->sheen[r][c]);
+                integrate_sheen(roughness * roughness, root * root, table->sheen[r][c]);
         }
     }
 }
@@ -192,20 +192,26 @@ static int cell(float x, int count, float *out_fraction)
     return i;
 }
 
-static void mix_nodes(const ppmi_lobe_nodes table[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES],
-                      float x, float y, ppmi_lobe_nodes *out_nodes)
+/* Where four entries of a table meet, and their shares. */
+typedef struct patch {
+    int r, c;
+    float w[4];
+} patch;
+
+static patch patch_at(float x, float y)
 {
     float tx, ty;
-    const int r = cell(x, PPMI_LOBE_ROUGHNESSES, &tx), c = cell(y, PPMI_LOBE_COSINES, &ty);
-    const ppmi_lobe_nodes *low = table[r], *high = table[r + 1];
-    const float w00 = (1.0f - tx) * (1.0f - ty), w01 = (1.0f - tx) * ty;
-    const float w10 = tx * (1.0f - ty), w11 = tx * ty;
-    for (int n = 0; n < PPMI_LOBE_NODES; n++) {
-        out_nodes->cos_i[n] = w00 * low[c].cos_i[n] + w01 * low[c + 1].cos_i[n] +
-                              w10 * high[c].cos_i[n] + w11 * high[c + 1].cos_i[n];
-        out_nodes->cos_h[n] = w00 * low[c].cos_h[n] + w01 * low[c + 1].cos_h[n] +
-                              w10 * high[c].cos_h[n] + w11 * high[c + 1].cos_h[n];
-    }
+    patch at = {.r = cell(x, PPMI_LOBE_ROUGHNESSES, &tx), .c = cell(y, PPMI_LOBE_COSINES, &ty)};
+    at.w[0] = (1.0f - tx) * (1.0f - ty);
+    at.w[1] = (1.0f - tx) * ty;
+    at.w[2] = tx * (1.0f - ty);
+    at.w[3] = tx * ty;
+    return at;
+}
+
+static float blend(const patch *at, float v00, float v01, float v10, float v11)
+{
+    return at->w[0] * v00 + at->w[1] * v01 + at->w[2] * v10 + at->w[3] * v11;
 }
 
 static float sheen_position(float roughness)
@@ -216,24 +222,32 @@ static float sheen_position(float roughness)
 void ppmi_lobe_ggx_nodes(const ppmi_lobe_table *table, float roughness, float cosine,
                          ppmi_lobe_nodes *out_nodes)
 {
-    mix_nodes(table->ggx, roughness, cosine, out_nodes);
+    const patch at = patch_at(roughness, cosine);
+    const ppmi_lobe_nodes *low = table->ggx[at.r] + at.c, *high = table->ggx[at.r + 1] + at.c;
+    for (int n = 0; n < PPMI_LOBE_NODES; n++) {
+        out_nodes->cos_i[n] =
+            blend(&at, low[0].cos_i[n], low[1].cos_i[n], high[0].cos_i[n], high[1].cos_i[n]);
+        out_nodes->cos_h[n] =
+            blend(&at, low[0].cos_h[n], low[1].cos_h[n], high[0].cos_h[n], high[1].cos_h[n]);
+    }
 }
 
 void ppmi_lobe_sheen_nodes(const ppmi_lobe_table *table, float roughness, float cosine,
-                           ppmi_lobe_nodes *out_nodes)
+                           float out_cos_i[PPMI_LOBE_NODES])
 {
-    mix_nodes(table->sheen, sheen_position(roughness), sqrtf(ppmi_max(cosine, 0.0f)), out_nodes);
+    const patch at = patch_at(sheen_position(roughness), sqrtf(ppmi_max(cosine, 0.0f)));
+    const float(*low)[PPMI_LOBE_NODES] = table->sheen[at.r] + at.c;
+    const float(*high)[PPMI_LOBE_NODES] = table->sheen[at.r + 1] + at.c;
+    for (int n = 0; n < PPMI_LOBE_NODES; n++)
+        out_cos_i[n] = blend(&at, low[0][n], low[1][n], high[0][n], high[1][n]);
 }
 
 float ppmi_lobe_sheen_albedo(const ppmi_lobe_table *table, float roughness, float cosine)
 {
-    float tr, tc;
-    const int r = cell(sheen_position(roughness), PPMI_LOBE_ROUGHNESSES, &tr);
-    const int c = cell(sqrtf(ppmi_max(cosine, 0.0f)), PPMI_LOBE_COSINES, &tc);
-    const float *low = table->sheen_albedo[r], *high = table->sheen_albedo[r + 1];
-    const float at_low = low[c] + (low[c + 1] - low[c]) * tc;
-    const float at_high = high[c] + (high[c + 1] - high[c]) * tc;
-    return at_low + (at_high - at_low) * tr;
+    const patch at = patch_at(sheen_position(roughness), sqrtf(ppmi_max(cosine, 0.0f)));
+    const float *low = table->sheen_albedo[at.r] + at.c,
+                *high = table->sheen_albedo[at.r + 1] + at.c;
+    return blend(&at, low[0], low[1], high[0], high[1]);
 }
 
 ppmi_albedo_pair ppmi_lobe_wide_albedo(const ppmi_lobe_table *table, float roughness,

@@ -20,8 +20,8 @@ enum {
     PPMI_WIDE_ANGLES = 5
 };
 
-/* A lobe as directions of equal weight: cosines of what it reflects to the normal, rising, and to
- * the half vector. */
+/* A lobe in parts of equal weight by what it reflects: the mean cosines to the normal, rising, and
+ * in other parts to the half vector. */
 typedef struct ppmi_lobe_nodes {
     float cos_i[PPMI_LOBE_NODES], cos_h[PPMI_LOBE_NODES];
 } ppmi_lobe_nodes;
@@ -31,7 +31,7 @@ typedef struct ppmi_lobe_table {
     ppmi_lobe_nodes ggx[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES];
     /* [roughness][cosine], sheen, roughness from PPMI_SHEEN_LEAST_ROUGHNESS to 1, steps even in the
      * root of the cosine */
-    ppmi_lobe_nodes sheen[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES];
+    float sheen[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES][PPMI_LOBE_NODES]; /* cos_i */
     float sheen_albedo[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES];
     /* [roughness][strength of anisotropy][cosine][azimuth from the wide axis, 0 to 90 degrees] */
     ppmi_albedo_pair wide[PPMI_WIDE_ROUGHNESSES][PPMI_WIDE_STRENGTHS][PPMI_WIDE_COSINES]
@@ -44,7 +44,7 @@ void ppmi_lobe_table_init(ppmi_lobe_table *table);
 void ppmi_lobe_ggx_nodes(const ppmi_lobe_table *table, float roughness, float cosine,
                          ppmi_lobe_nodes *out_nodes);
 void ppmi_lobe_sheen_nodes(const ppmi_lobe_table *table, float roughness, float cosine,
-                           ppmi_lobe_nodes *out_nodes);
+                           float out_cos_i[PPMI_LOBE_NODES]);
 /* Directional albedo of a white sheen. */
 float ppmi_lobe_sheen_albedo(const ppmi_lobe_table *table, float roughness, float cosine);
 

@@ -143,7 +143,7 @@ static const struct {
                            .coat = 0.5f,
                            .coat_roughness = 0.2f}},
     [KIND_WHITE_RETRO_METAL] =
-        {"white retroreflective metal", 1, 0, 1, 1.5f, {1, 1, 1}, LAYERED, {.retro = 0.6f}},
+        {"white retroreflective metal", 1, 0, 1, 1.5f, {1, 1, 1}, LAYERED, {.retro = 1.0f}},
     [KIND_RETRO_PLASTIC] = {"retroreflective plastic",
                             0,
                             0,
@@ -212,7 +212,8 @@ void bsdf_make_case(int kind, float roughness, float cosine, bsdf_case *item, pp
 void bsdf_for_all(bsdf_check check, void *user)
 {
     for (int kind = 0; kind < KINDS; kind++) {
-        for (int r = 0; r < ROUGHNESSES; r++) {
+        /* the many layered ones with every second roughness */
+        for (int r = 0; r < ROUGHNESSES; r += kinds[kind].is_layered ? 2 : 1) {
             for (int c = 0; c < COSINES; c++) {
                 bsdf_case item;
                 ppmi_bsdf bsdf;

@@ -78,7 +78,8 @@ static bins make_bins(const ppmi_bsdf *bsdf)
     /* in total reflection the lobe below clings to the surface */
     const float sine2 = ppmi_min((1.0f - wo.z * wo.z) / (eta * eta), 1.0f);
     const ppmi_vec3 below = vec3_normalize(vec3(-wo.x / eta, -wo.y / eta, -sqrtf(1.0f - sine2)));
-    const ppmi_vec3 above = vec3(-wo.x, -wo.y, wo.z);
+    const bool is_retro = bsdf->is_layered && bsdf->layers.retro == 1.0f;
+    const ppmi_vec3 above = is_retro ? wo : vec3(-wo.x, -wo.y, wo.z);
     return (bins){{ppmi_frame_from_normal(ppmi_frame_to_world(&bsdf->frame, vec3_normalize(above))),
                    ppmi_frame_from_normal(ppmi_frame_to_world(&bsdf->frame, below))},
                   bsdf->ng};
@@ -97,10 +98,19 @@ static double integrate_bin(const bins *b, const ppmi_bsdf *bsdf, int bin)
     return is_smooth ? fine : bin_integral(b, bsdf, bin, 40);
 }
 
+/* The bins are fine around one direction, and there not finer along one axis than the other. */
+static bool bins_can_tell(const bsdf_case *item, const ppmi_bsdf *bsdf)
+{
+    const uint32_t both = PPMI_LOBE_SPEC | PPMI_LOBE_RETRO;
+    const bool is_wide = bsdf->is_layered && bsdf->layers.anisotropy > 0.0f;
+    return item->roughness >= 0.5f || (!is_wide && (bsdf->lobes & both) != both);
+}
+
 /* What is not drawn, be it absorbed or delta, has a cell of its own. */
 static void check_density(const bsdf_case *item, const ppmi_bsdf *bsdf, void *user)
 {
     if ((bsdf->lobes & ~bsdf->delta_lobes) == 0) return;
+    if (!bins_can_tell(item, bsdf)) return;
     density_test *test = user;
     const uint32_t count = TEST_EFFORT(60000);
     const bins b = make_bins(bsdf);

@@ -47,7 +47,8 @@ static void check_reciprocity(const bsdf_case *item, const ppmi_bsdf *bsdf, void
         /* narrow lobes are met by drawing from them */
         if (i % 2 == 0 && bsdf_draw(bsdf, rng, PPMI_TRANSPORT_POWER, &sample)) wi = sample.wi;
         if (is_grazing(wi)) continue;
-        const bool is_refraction = wi.z * wo.z < 0.0f && !item->point.is_thin;
+        const bool is_refraction =
+            wi.z * wo.z < 0.0f && !item->point.is_thin && item->point.transmission > 0.0f;
         const float eta2 = is_refraction ? bsdf->eta * bsdf->eta : 1.0f;
         const ppmi_vec3 power = value(item, wo, wi, PPMI_TRANSPORT_POWER);
         const ppmi_vec3 radiance = value(item, wo, wi, PPMI_TRANSPORT_RADIANCE);
