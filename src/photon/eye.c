@@ -11,8 +11,9 @@
 /* Paths are not ended by chance before this depth: chains of glass need them. */
 enum { ROULETTE_DEPTH = 6 };
 
-/* Each split leaves at most three branches for later: two of glass, one of a narrow lobe. */
-enum { MAX_BRANCHES = 3 * PPMI_MAX_SPLIT_DEPTH + 1 };
+/* What a split leaves for later at most: the delta lobes' directions, and one of narrow lobes. */
+enum { SPLIT_BRANCHES = PPMI_BSDF_MAX_BRANCHES + 1 };
+enum { MAX_BRANCHES = SPLIT_BRANCHES * PPMI_MAX_SPLIT_DEPTH + 1 };
 
 /* Points in the first medium that a path crosses: light in fog is seen best as a sum over the way.
  */
@@ -198,7 +199,8 @@ static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *
 static void split(eye_path *path, const eye_branch *branch, const eye_vertex *at, uint32_t mask)
 {
     ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
-    const uint32_t count = ppmi_bsdf_branches(&at->bsdf, mask, PPMI_TRANSPORT_RADIANCE, samples);
+    const uint32_t count = ppmi_bsdf_branches(&at->bsdf, path->walker->world->albedo, mask,
+                                              PPMI_TRANSPORT_RADIANCE, samples);
     for (uint32_t i = 0; i < count; i++)
         put_off(path, branch, at, &samples[i]);
     const uint32_t narrow = mask & (uint32_t)~at->bsdf.delta_lobes;
@@ -209,7 +211,7 @@ static void split(eye_path *path, const eye_branch *branch, const eye_vertex *at
 static bool may_split(const eye_path *path, const eye_branch *branch)
 {
     return branch->splits < path->settings->split_depth &&
-           path->waiting_count + 3 <= MAX_BRANCHES &&
+           path->waiting_count + SPLIT_BRANCHES <= MAX_BRANCHES &&
            vec3_max_component(branch->throughput) > least_split_throughput;
 }
 

@@ -17,8 +17,17 @@ static const float disk_kernel = 2.0f, ball_kernel = 2.5f;
 /* Photons arrive by the geometric normal's cosine, the BSDF means the shading normal's. */
 static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
-    const float geometric = vec3_dot(wi, bsdf->ng);
-    return geometric > 1e-4f ? ppmi_min(ppmi_bsdf_cosine(bsdf, wi) / geometric, 1e2f) : 0.0f;
+    const float geometric = fabsf(vec3_dot(wi, bsdf->ng));
+    return geometric > 1e-4f ? ppmi_min(fabsf(ppmi_bsdf_cosine(bsdf, wi)) / geometric, 1e2f) : 0.0f;
+}
+
+/* Whether a photon's normal says that it lies on the point's surface: on the same side of it, or
+ * where light comes through diffusely on the other one. */
+static bool is_on_surface(const ppmi_bsdf *bsdf, ppmi_vec3 ng)
+{
+    const float cosine = vec3_dot(ng, bsdf->ng);
+    return cosine >= normal_tolerance ||
+           (cosine <= -normal_tolerance && bsdf->gather_lobes & PPMI_LOBE_THROUGH);
 }
 
 /* Whether the photon counted. */
@@ -27,7 +36,7 @@ static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
 {
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
     if (!is_phase) {
-        if (vec3_dot(photon->ng, bsdf->ng) < normal_tolerance) return false;
+        if (!is_on_surface(bsdf, photon->ng)) return false;
         kernel *= cosine_ratio(bsdf, photon->wi);
     }
     const ppmi_vec3 f =

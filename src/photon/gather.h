@@ -15,7 +15,8 @@ typedef struct ppmi_gathered {
 
 /* Gathers at a point within radius (metres): in the disk around a surface point, in the ball around
  * one in a medium. grid holds photons of that kind. At a surface a photon counts only if it lies
- * near the tangent plane, on a surface that faces the same way, and the BSDF lets some of it
+ * near the tangent plane, on a surface that faces the same way (or the other way, where light
+ * passes diffusely), and the BSDF lets some of it
  * through: what brings nothing must not shrink the radius (mitsuba-renderer/mitsuba#145). */
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                           const ppmi_visible_point *point, float radius);

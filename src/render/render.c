@@ -15,6 +15,7 @@ struct ppm_render {
     ppmi_accel *accel;
     ppmi_lights *lights;
     ppmi_albedo_table *albedo;
+    ppmi_lobe_table *lobes; /* NULL unless some material has layers */
     ppmi_spectrum *spectrum;
     ppmi_contacts *contacts;
     const ppmi_integrator *integrator;
@@ -242,6 +243,14 @@ static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *opt
     return status;
 }
 
+static bool has_layers(const ppm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].is_layered) return true;
+    }
+    return false;
+}
+
 static ppm_status build_world(ppm_render *render)
 {
     render->albedo = ppmi_alloc(render->context, 1, sizeof *render->albedo);
@@ -250,6 +259,14 @@ static ppm_status build_world(ppm_render *render)
         return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: tables");
     }
     ppmi_albedo_table_init(render->albedo);
+    if (has_layers(render->scene)) {
+        render->lobes = ppmi_alloc(render->context, 1, sizeof *render->lobes);
+        if (!render->lobes) {
+            return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: tables");
+        }
+        ppmi_lobe_table_init(render->lobes);
+        render->albedo->lobes = render->lobes;
+    }
     ppmi_spectrum_init(render->spectrum);
     ppm_status status = ppmi_accel_create(render->context, render->scene, &render->accel);
     if (status == PPM_STATUS_OK) {
@@ -382,6 +399,7 @@ void ppm_render_destroy(ppm_render *render)
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);
     ppmi_free(render->context, render->albedo);
+    ppmi_free(render->context, render->lobes);
     ppmi_free(render->context, render->spectrum);
     ppmi_scene_thaw(render->scene);
     ppmi_free(render->context, render);

@@ -7,6 +7,7 @@
  * and is reciprocal. */
 #include "shading/bsdf.h"
 
+#include "shading/layers.h"
 #include "shading/microfacet.h"
 
 /* A GGX lobe at least this wide is worth estimating from photon density: below, few photons fall
@@ -43,6 +44,21 @@ static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair a
     }
 }
 
+/* Which lobes are there, and how often each is drawn; albedos beyond count are 0. */
+static void choose_by_albedo(ppmi_bsdf *bsdf, const float *albedos, uint32_t count)
+{
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < count; i++)
+        sum += albedos[i];
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(albedos[i] > 1e-6f)) continue;
+        bsdf->lobe_probability[i] = albedos[i] / sum;
+        bsdf->lobes |= (uint8_t)(1u << i);
+    }
+    bsdf->gather_lobes &= bsdf->lobes;
+    bsdf->delta_lobes &= bsdf->lobes;
+}
+
 static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average)
 {
     const float coat_left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
@@ -51,18 +67,11 @@ static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_
                  vec3_max_component(bsdf->metal_base) * (1.0f - average.a - average.b);
     albedos[1] = at_o.a * vec3_max_component(bsdf->f0) + at_o.b * vec3_max_component(bsdf->f90);
     albedos[2] = bsdf->glass_weight;
-    const float sum = albedos[0] + albedos[1] + albedos[2];
-    for (uint32_t i = 0; i < 3; i++) {
-        if (!(albedos[i] > 1e-6f)) continue;
-        bsdf->lobe_probability[i] = albedos[i] / sum;
-        bsdf->lobes |= (uint8_t)(1u << i);
-    }
     if (bsdf->alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_SPEC;
     if (bsdf->glass_alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_GLASS;
     bsdf->gather_lobes = PPMI_LOBE_WIDE;
     if (bsdf->alpha >= gather_alpha) bsdf->gather_lobes |= PPMI_LOBE_SPEC;
-    bsdf->gather_lobes &= bsdf->lobes;
-    bsdf->delta_lobes &= bsdf->lobes;
+    choose_by_albedo(bsdf, albedos, 3);
 }
 
 /* The index ratio and roughness of the glass lobe. */
@@ -95,6 +104,22 @@ static ppmi_vec3 visible_normal(ppmi_vec3 ns, ppmi_vec3 ng, ppmi_vec3 wo)
     return vec3_normalize(vec3_mad(ns, wo, least - cosine));
 }
 
+static void make_layered(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                         const ppmi_material_point *point, ppmi_vec3 wo, ppmi_vec3 dielectric_f0,
+                         float opaque)
+{
+    bsdf->coat_f0 = vec3_max_component(dielectric_f0);
+    bsdf->coat_f90 = point->specular;
+    const ppmi_base_shares shares = {dielectric_f0, opaque,
+                                     opaque > 0.0f ? point->metallic / opaque : 0.0f};
+    ppmi_vec3 normal = point->layers.coat_normal;
+    if (vec3_dot(normal, bsdf->ng) < 0.0f) normal = vec3_neg(normal);
+    normal = visible_normal(normal, bsdf->ng, wo);
+    ppmi_lobe_albedos albedos;
+    ppmi_layers_make(bsdf, albedo, point, &shares, normal, &albedos);
+    choose_by_albedo(bsdf, albedos.of, PPMI_LOBE_COUNT);
+}
+
 void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface,
                     const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *out_bsdf)
 {
@@ -121,6 +146,10 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     bsdf->f0 = vec3_scale(vec3_lerp(dielectric_f0, point->base_color, metal), opaque);
     bsdf->f90 = vec3_splat(opaque * (point->specular + (1.0f - point->specular) * metal));
     make_glass(bsdf, point, is_outside);
+    if (point->is_layered) {
+        make_layered(bsdf, albedo, point, wo, dielectric_f0, opaque);
+        return;
+    }
     ppmi_material_point opaque_point = *point;
     opaque_point.metallic = metal;
     ppmi_albedo_pair at_o = {0.0f, 0.0f}, average = {0.0f, 0.0f};
@@ -182,10 +211,33 @@ static float spec_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 
 /* Reflectance of a thin sheet: both faces and the light that goes to and fro between them,
  * R + T R T + T R^3 T + ... = 2 R / (1 + R). */
+static float fold_faces(const ppmi_bsdf *bsdf, float r)
+{
+    return bsdf->is_thin ? 2.0f * r / (1.0f + r) : r;
+}
+
+/* Under a film reflection has a colour. */
+static ppmi_vec3 film_reflectance(const ppmi_bsdf *bsdf, float cos_h)
+{
+    float cos_t;
+    const float r = ppmi_fresnel_dielectric(cos_h, bsdf->eta, &cos_t);
+    if (cos_t == 0.0f) return vec3_splat(1.0f);
+    const ppmi_vec3 film = ppmi_layers_glass(bsdf, r, bsdf->eta < 1.0f ? cos_t : cos_h);
+    return vec3(fold_faces(bsdf, film.x), fold_faces(bsdf, film.y), fold_faces(bsdf, film.z));
+}
+
+/* What is not transmitted; under a film the most of all channels. */
 static float glass_reflectance(const ppmi_bsdf *bsdf, float cos_h, float *out_cos_t)
 {
     const float r = ppmi_fresnel_dielectric(cos_h, bsdf->eta, out_cos_t);
-    return bsdf->is_thin ? 2.0f * r / (1.0f + r) : r;
+    if (ppmi_layers_have_film(bsdf)) return vec3_max_component(film_reflectance(bsdf, cos_h));
+    return fold_faces(bsdf, r);
+}
+
+/* What is reflected, where glass_reflectance is reflectance. */
+static ppmi_vec3 glass_tone(const ppmi_bsdf *bsdf, float cos_h, float reflectance)
+{
+    return ppmi_layers_have_film(bsdf) ? film_reflectance(bsdf, cos_h) : vec3_splat(reflectance);
 }
 
 /* A thin sheet's transmission lobe is the reflection lobe, flipped through the sheet. */
@@ -237,7 +289,7 @@ static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport 
     const float g = ppmi_ggx_g2(bsdf->glass_alpha, bsdf->wo.z, fabsf(wi.z));
     const float common = bsdf->glass_weight * d * g * cos_oh * glass_jacobian(bsdf, folded, h) /
                          (bsdf->wo.z * fabsf(wi.z));
-    if (!is_transmission) return vec3_splat(common * reflectance);
+    if (!is_transmission) return vec3_scale(glass_tone(bsdf, cos_oh, reflectance), common);
     return vec3_scale(bsdf->tint,
                       common * (1.0f - reflectance) * transmitted_scale(bsdf, transport));
 }
@@ -261,6 +313,24 @@ static bool sides_agree(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float local_z)
     return local_z * vec3_dot(wi, bsdf->ng) > 0.0f;
 }
 
+/* The coat reflects about a normal of its own: it alone may reach below the base's horizon. */
+static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                              ppmi_vec3 wi_world, ppmi_vec3 wi, uint32_t mask,
+                              ppmi_transport transport)
+{
+    ppmi_vec3 f = vec3_splat(0.0f);
+    if (sides_agree(bsdf, wi_world, wi.z)) {
+        f = ppmi_layers_eval_base(bsdf, albedo, wi, mask);
+        if (mask & PPMI_LOBE_GLASS) {
+            f = vec3_mad(f, glass_eval(bsdf, wi, transport), ppmi_layers_passing(bsdf, albedo, wi));
+        }
+    }
+    if (mask & PPMI_LOBE_COAT && vec3_dot(wi_world, bsdf->ng) > 0.0f) {
+        f = vec3_add(f, ppmi_layers_eval_coat(bsdf, wi, transport));
+    }
+    return f;
+}
+
 ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi_world,
                          uint32_t mask, ppmi_transport transport)
 {
@@ -268,9 +338,10 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     if (mask & bsdf->lobes & PPMI_LOBE_PHASE) {
         return vec3_scale(bsdf->sigma_s, ppmi_phase(bsdf->asymmetry_g, wi.z));
     }
+    mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
+    if (bsdf->is_layered) return layered_eval(bsdf, albedo, wi_world, wi, mask, transport);
     ppmi_vec3 f = vec3_splat(0.0f);
     if (!sides_agree(bsdf, wi_world, wi.z)) return f;
-    mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
     if (wi.z > 0.0f) {
         if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
         if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
@@ -282,10 +353,24 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
 float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
 {
     float sum = 0.0f;
-    for (uint32_t i = 0; i < 4; i++) {
+    mask &= bsdf->lobes;
+    for (uint32_t i = 0; mask >> i != 0; i++) {
         if (mask >> i & 1) sum += bsdf->lobe_probability[i];
     }
     return sum;
+}
+
+static float layered_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, ppmi_vec3 wi, uint32_t mask)
+{
+    float pdf = 0.0f;
+    if (sides_agree(bsdf, wi_world, wi.z)) {
+        pdf = ppmi_layers_pdf_base(bsdf, wi, mask);
+        if (mask & PPMI_LOBE_GLASS) pdf += bsdf->lobe_probability[2] * glass_pdf(bsdf, wi);
+    }
+    if (mask & PPMI_LOBE_COAT && vec3_dot(wi_world, bsdf->ng) > 0.0f) {
+        pdf += bsdf->lobe_probability[4] * ppmi_layers_pdf_coat(bsdf, wi);
+    }
+    return pdf;
 }
 
 float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
@@ -293,8 +378,10 @@ float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
     const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
     if (mask & bsdf->lobes & PPMI_LOBE_PHASE) return ppmi_phase(bsdf->asymmetry_g, wi.z);
     const float total = ppmi_bsdf_probability(bsdf, mask);
-    if (!sides_agree(bsdf, wi_world, wi.z) || total <= 0.0f) return 0.0f;
+    if (total <= 0.0f) return 0.0f;
     mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
+    if (bsdf->is_layered) return layered_pdf(bsdf, wi_world, wi, mask) / total;
+    if (!sides_agree(bsdf, wi_world, wi.z)) return 0.0f;
     float pdf = 0.0f;
     if (wi.z > 0.0f) {
         if (mask & PPMI_LOBE_WIDE) pdf += bsdf->lobe_probability[0] * wi.z * PPMI_INV_PI;
@@ -326,8 +413,24 @@ static ppmi_vec3 lift_reflection(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
     return vec3_normalize(vec3_mad(wi, bsdf->ng, 1e-3f - 2.0f * below));
 }
 
-static bool draw_mirror(const ppmi_bsdf *bsdf, float probability, ppmi_bsdf_sample *sample)
+static bool draw_layered_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                uint32_t lobe, ppmi_transport transport, float probability,
+                                ppmi_bsdf_sample *sample)
 {
+    ppmi_vec3 wi, weight;
+    if (!ppmi_layers_mirror(bsdf, albedo, lobe, transport, &wi, &weight)) return false;
+    sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, wi));
+    sample->weight = vec3_scale(weight, 1.0f / probability);
+    return true;
+}
+
+/* A delta lobe that reflects: SPEC, of layered materials COAT and RETRO too. */
+static bool draw_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t lobe,
+                        ppmi_transport transport, float probability, ppmi_bsdf_sample *sample)
+{
+    if (bsdf->is_layered) {
+        return draw_layered_mirror(bsdf, albedo, lobe, transport, probability, sample);
+    }
     const ppmi_vec3 local = vec3(-bsdf->wo.x, -bsdf->wo.y, bsdf->wo.z);
     sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, local));
     sample->weight = vec3_scale(spec_fresnel(bsdf, bsdf->wo.z), 1.0f / probability);
@@ -336,17 +439,28 @@ static bool draw_mirror(const ppmi_bsdf *bsdf, float probability, ppmi_bsdf_samp
 
 static const ppmi_vec3 local_up = {0.0f, 0.0f, 1.0f};
 
-/* Reflection at the smooth interface, with share as weight. */
-static void reflect_at_glass(const ppmi_bsdf *bsdf, float share, ppmi_bsdf_sample *sample)
+/* What layers on top leave of a weight. */
+static void cover(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 local,
+                  ppmi_bsdf_sample *sample)
+{
+    if (!bsdf->is_layered) return;
+    sample->weight = vec3_scale(sample->weight, ppmi_layers_passing(bsdf, albedo, local));
+}
+
+/* Reflection at the smooth interface, with share times what is reflected as weight. */
+static void reflect_at_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                             ppmi_vec3 reflected, float share, ppmi_bsdf_sample *sample)
 {
     const ppmi_vec3 local = reflect_about(bsdf->wo, local_up);
     sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, local));
-    sample->weight = vec3_splat(share);
+    sample->weight = vec3_scale(reflected, share);
+    cover(bsdf, albedo, local, sample);
 }
 
 /* Transmission through the smooth interface, with share times tint as weight. */
-static bool transmit_at_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, float cos_t,
-                              float share, ppmi_bsdf_sample *sample)
+static bool transmit_at_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                              ppmi_transport transport, float cos_t, float share,
+                              ppmi_bsdf_sample *sample)
 {
     const ppmi_vec3 local =
         bsdf->is_thin ? vec3_neg(bsdf->wo) : refract_about(bsdf->wo, local_up, bsdf->eta, cos_t);
@@ -354,40 +468,61 @@ static bool transmit_at_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, f
     sample->is_transmission = true;
     sample->eta_scale = transmitted_scale(bsdf, transport);
     sample->weight = vec3_scale(bsdf->tint, share * sample->eta_scale);
+    cover(bsdf, albedo, local, sample);
     /* at a leaning shading normal the refracted ray may stay above the surface: absorbed */
     return vec3_dot(sample->wi, bsdf->ng) < 0.0f;
 }
 
 /* Fresnel decides, so the weight is that of the lobe alone. */
-static bool draw_smooth_glass(const ppmi_bsdf *bsdf, ppmi_transport transport, float probability,
-                              float u, ppmi_bsdf_sample *sample)
+static bool draw_smooth_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                              ppmi_transport transport, float probability, float u,
+                              ppmi_bsdf_sample *sample)
 {
     float cos_t;
     const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
     const float share = bsdf->glass_weight / probability;
-    if (u >= reflectance) return transmit_at_glass(bsdf, transport, cos_t, share, sample);
-    reflect_at_glass(bsdf, share, sample);
+    if (u >= reflectance) {
+        return transmit_at_glass(bsdf, albedo, transport, cos_t, share, sample);
+    }
+    const ppmi_vec3 tone = ppmi_layers_have_film(bsdf)
+                               ? vec3_scale(film_reflectance(bsdf, bsdf->wo.z), 1.0f / reflectance)
+                               : vec3_splat(1.0f);
+    reflect_at_glass(bsdf, albedo, tone, share, sample);
     return true;
 }
 
-uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, uint32_t mask, ppmi_transport transport,
+static uint32_t glass_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                               ppmi_transport transport, ppmi_bsdf_sample *samples)
+{
+    uint32_t count = 0;
+    float cos_t;
+    const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    if (reflectance > 0.0f) {
+        const ppmi_vec3 tone = glass_tone(bsdf, bsdf->wo.z, reflectance);
+        reflect_at_glass(bsdf, albedo, tone, bsdf->glass_weight, &samples[count++]);
+    }
+    const float left = bsdf->glass_weight * (1.0f - reflectance);
+    if (left > 0.0f) {
+        count += transmit_at_glass(bsdf, albedo, transport, cos_t, left, &samples[count]);
+    }
+    return count;
+}
+
+uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                            ppmi_transport transport,
                             ppmi_bsdf_sample out_samples[PPMI_BSDF_MAX_BRANCHES])
 {
+    static const uint32_t mirrors[] = {PPMI_LOBE_SPEC, PPMI_LOBE_COAT, PPMI_LOBE_RETRO};
     uint32_t count = 0;
     mask &= bsdf->delta_lobes;
     for (uint32_t i = 0; i < PPMI_BSDF_MAX_BRANCHES; i++)
         out_samples[i] = (ppmi_bsdf_sample){.is_delta = true, .eta_scale = 1.0f};
-    if (mask & PPMI_LOBE_SPEC) count += draw_mirror(bsdf, 1.0f, &out_samples[count]);
+    for (uint32_t i = 0; i < sizeof mirrors / sizeof mirrors[0]; i++) {
+        if (!(mask & mirrors[i])) continue;
+        count += draw_mirror(bsdf, albedo, mirrors[i], transport, 1.0f, &out_samples[count]);
+    }
     if (mask & PPMI_LOBE_GLASS) {
-        float cos_t;
-        const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
-        if (reflectance > 0.0f) {
-            reflect_at_glass(bsdf, bsdf->glass_weight * reflectance, &out_samples[count++]);
-        }
-        const float left = bsdf->glass_weight * (1.0f - reflectance);
-        if (left > 0.0f) {
-            count += transmit_at_glass(bsdf, transport, cos_t, left, &out_samples[count]);
-        }
+        count += glass_branches(bsdf, albedo, transport, &out_samples[count]);
     }
     return count;
 }
@@ -424,8 +559,8 @@ static void draw_phase(const ppmi_bsdf *bsdf, float u, float v, ppmi_bsdf_sample
 static uint32_t choose_lobe(const ppmi_bsdf *bsdf, uint32_t mask, float total, float *u)
 {
     float x = *u * total;
-    uint32_t last = 4;
-    for (uint32_t i = 0; i < 4; i++) {
+    uint32_t last = PPMI_LOBE_COUNT;
+    for (uint32_t i = 0; i < PPMI_LOBE_COUNT; i++) {
         const float p = bsdf->lobe_probability[i];
         if (!(mask >> i & 1) || p <= 0.0f) continue;
         last = i;
@@ -455,12 +590,14 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
     if (bsdf->delta_lobes >> lobe & 1) {
         out_sample->is_delta = true;
         const float probability = bsdf->lobe_probability[lobe] / total;
-        return 1u << lobe == PPMI_LOBE_SPEC
-                   ? draw_mirror(bsdf, probability, out_sample)
-                   : draw_smooth_glass(bsdf, transport, probability, u_lobe, out_sample);
+        return 1u << lobe == PPMI_LOBE_GLASS
+                   ? draw_smooth_glass(bsdf, albedo, transport, probability, u_lobe, out_sample)
+                   : draw_mirror(bsdf, albedo, 1u << lobe, transport, probability, out_sample);
     }
     ppmi_vec3 wi;
-    if (1u << lobe == PPMI_LOBE_WIDE) {
+    if (bsdf->is_layered && 1u << lobe != PPMI_LOBE_GLASS) {
+        if (!ppmi_layers_draw(bsdf, 1u << lobe, u, v, &wi)) return false;
+    } else if (1u << lobe == PPMI_LOBE_WIDE) {
         wi = ppmi_sample_cosine_hemisphere(u, v);
     } else if (1u << lobe == PPMI_LOBE_SPEC) {
         wi = reflect_about(bsdf->wo, ppmi_ggx_sample_visible(bsdf->alpha, bsdf->wo, u, v));
@@ -469,8 +606,10 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
         return false;
     }
     out_sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, wi));
-    out_sample->is_transmission = wi.z < 0.0f;
-    if (out_sample->is_transmission) out_sample->eta_scale = transmitted_scale(bsdf, transport);
+    out_sample->is_transmission = vec3_dot(out_sample->wi, bsdf->ng) < 0.0f;
+    if (out_sample->is_transmission && 1u << lobe == PPMI_LOBE_GLASS) {
+        out_sample->eta_scale = transmitted_scale(bsdf, transport);
+    }
     out_sample->pdf = ppmi_bsdf_pdf(bsdf, out_sample->wi, mask);
     if (!(out_sample->pdf > 0.0f)) return false;
     const ppmi_vec3 f = ppmi_bsdf_eval(bsdf, albedo, out_sample->wi, mask, transport);

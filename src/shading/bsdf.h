@@ -6,6 +6,12 @@
  *   PHASE  no surface at all but a point in a medium: sigma_s times the phase function, without
  *          cosine; always gathers, and stands alone
  *
+ * and, of materials with layers (docs/materials.md),
+ *   COAT     GGX reflection of the clearcoat, around a normal of its own; a mirror when smooth
+ *   SHEEN    fibres on top of the base: always gathers
+ *   THROUGH  Lambert to the other side: always gathers
+ *   RETRO    the part of SPEC that goes back where the light came from
+ *
  * Directions point away from the surface, in world space. wo is the side the BSDF was made for: the
  * eye on eye paths, where the light came from on photon paths. */
 #ifndef PPMI_SHADING_BSDF_H
@@ -20,12 +26,37 @@ enum {
     PPMI_LOBE_SPEC = 2,
     PPMI_LOBE_GLASS = 4,
     PPMI_LOBE_PHASE = 8,
-    PPMI_LOBE_ALL = 15
+    PPMI_LOBE_COAT = 16,
+    PPMI_LOBE_SHEEN = 32,
+    PPMI_LOBE_THROUGH = 64,
+    PPMI_LOBE_RETRO = 128,
+    PPMI_LOBE_ALL = 255
 };
+enum { PPMI_LOBE_COUNT = 8 };
 
 /* What a path carries. Radiance is scaled by the square of the index ratio where it is refracted,
  * photon power is not (Veach 1997, section 5.2). */
 typedef enum ppmi_transport { PPMI_TRANSPORT_RADIANCE, PPMI_TRANSPORT_POWER } ppmi_transport;
+
+/* What layered materials have beyond the others. Directions are local. */
+typedef struct ppmi_bsdf_layers {
+    /* COAT: over all else */
+    ppmi_vec3 coat_normal;
+    float coat, coat_roughness; /* share of the surface */
+    /* SHEEN: over the base */
+    ppmi_vec3 sheen_color;
+    float sheen_roughness;
+    float passing; /* share of light from wo that coat and sheen leave to what lies below */
+    /* THROUGH: like coat_base, to the other side */
+    ppmi_vec3 through;
+    /* film on the base's speculars */
+    float film, film_ior, film_nm;
+    ppmi_vec3 film_f0;      /* of the dielectric below */
+    ppmi_vec2 alpha;        /* of SPEC, along the frame's axes */
+    float anisotropy;       /* strength */
+    float retro;            /* share of RETRO in the base's speculars */
+    float opaque, metallic; /* share of what is not glass; metal's share of that */
+} ppmi_bsdf_layers;
 
 typedef struct ppmi_bsdf {
     ppmi_frame frame; /* around the shading normal, on wo's side */
@@ -50,14 +81,21 @@ typedef struct ppmi_bsdf {
     float eta; /* index on the far side by the one on wo's side */
     bool is_thin;
 
-    /* PHASE; frame.n is the direction of flight */
-    ppmi_vec3 sigma_s;
-    float asymmetry_g;
+    bool is_layered;
 
-    float lobe_probability[4]; /* WIDE, SPEC, GLASS, PHASE; sums to 1, or all 0 for black */
-    uint8_t lobes;             /* mask of lobes that are there */
-    uint8_t delta_lobes;       /* those of them that are infinitely narrow */
-    uint8_t gather_lobes;      /* those wide enough for density estimation */
+    union {
+        struct { /* PHASE; frame.n is the direction of flight */
+            ppmi_vec3 sigma_s;
+            float asymmetry_g;
+        };
+        ppmi_bsdf_layers layers;
+    };
+
+    float
+        lobe_probability[PPMI_LOBE_COUNT]; /* in the lobes' order; sums to 1, or all 0 for black */
+    uint8_t lobes;                         /* mask of lobes that are there */
+    uint8_t delta_lobes;                   /* those of them that are infinitely narrow */
+    uint8_t gather_lobes;                  /* those wide enough for density estimation */
 } ppmi_bsdf;
 
 typedef struct ppmi_bsdf_sample {
@@ -102,8 +140,9 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
 
 /* All directions of the delta lobes in mask, each with its whole weight, for paths that follow
  * every branch. Returns their number. */
-enum { PPMI_BSDF_MAX_BRANCHES = 3 };
-uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, uint32_t mask, ppmi_transport transport,
+enum { PPMI_BSDF_MAX_BRANCHES = 5 };
+uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                            ppmi_transport transport,
                             ppmi_bsdf_sample out_samples[PPMI_BSDF_MAX_BRANCHES]);
 
 static inline bool ppmi_bsdf_is_phase(const ppmi_bsdf *bsdf)

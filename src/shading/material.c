@@ -15,17 +15,17 @@ static float unit(float x)
     return ppmi_clampf(x, 0.0f, 1.0f);
 }
 
-static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surface)
+static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surface,
+                               const ppm_texture *texture, float scale)
 {
-    const ppm_material_desc *desc = &surface->material->desc;
     ppmi_vec3 tangent, bitangent;
-    if (desc->normal_texture.image == 0 ||
-        !ppmi_surface_tangents(surface, desc->normal_texture.uv_set, &tangent, &bitangent)) {
+    if (texture->image == 0 ||
+        !ppmi_surface_tangents(surface, texture->uv_set, &tangent, &bitangent)) {
         return surface->ns;
     }
-    const ppmi_texel texel = lookup(scene, surface, &desc->normal_texture);
-    const float x = (2.0f * texel.r - 1.0f) * desc->normal_scale;
-    const float y = (2.0f * texel.g - 1.0f) * desc->normal_scale;
+    const ppmi_texel texel = lookup(scene, surface, texture);
+    const float x = (2.0f * texel.r - 1.0f) * scale;
+    const float y = (2.0f * texel.g - 1.0f) * scale;
     const float z = 2.0f * texel.b - 1.0f;
     const ppmi_vec3 n = vec3_normalize(
         vec3_mad(vec3_mad(vec3_scale(tangent, x), bitangent, y), surface->ns, ppmi_max(z, 1e-3f)));
@@ -42,6 +42,73 @@ static float roughness(const ppm_material_desc *desc, ppmi_texel texel)
 static float metallic(const ppm_material_desc *desc, ppmi_texel texel)
 {
     return desc->roughness_is_glossiness ? desc->metallic : desc->metallic * texel.b;
+}
+
+/* ---- layers ---------------------------------------------------------------------------------- */
+
+/* Strength and direction (KHR_materials_anisotropy): the texture's vector, turned, in the tangent
+ * space of the texture, else of the normal map. */
+static void evaluate_anisotropy(const ppm_scene *scene, const ppmi_surface *surface,
+                                ppmi_layer_point *layers)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    const ppm_texture *texture = &desc->anisotropy_texture;
+    const uint32_t uv_set = texture->image > 0 ? texture->uv_set : desc->normal_texture.uv_set;
+    ppmi_vec3 tangent, bitangent;
+    layers->anisotropy = 0.0f;
+    if (!(desc->anisotropy > 0.0f) ||
+        !ppmi_surface_tangents(surface, uv_set, &tangent, &bitangent)) {
+        return;
+    }
+    float x = 1.0f, y = 0.0f, strength = desc->anisotropy;
+    if (texture->image > 0) {
+        const ppmi_texel texel = lookup(scene, surface, texture);
+        x = 2.0f * texel.r - 1.0f;
+        y = 2.0f * texel.g - 1.0f;
+        strength *= texel.b;
+    }
+    const float c = cosf(desc->anisotropy_rotation_rad), s = sinf(desc->anisotropy_rotation_rad);
+    layers->tangent = vec3_mad(vec3_scale(tangent, c * x - s * y), bitangent, s * x + c * y);
+    layers->anisotropy = unit(strength);
+}
+
+static void evaluate_film(const ppm_scene *scene, const ppmi_surface *surface,
+                          ppmi_layer_point *layers)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    const float t = lookup(scene, surface, &desc->iridescence_thickness_texture).g;
+    const float least = desc->iridescence_thickness_min_nm;
+    layers->film = unit(desc->iridescence * lookup(scene, surface, &desc->iridescence_texture).r);
+    layers->film_ior = desc->iridescence_ior;
+    layers->film_nm = ppmi_max(least + (desc->iridescence_thickness_max_nm - least) * t, 0.0f);
+}
+
+static void evaluate_layers(const ppm_scene *scene, const ppmi_surface *surface,
+                            ppmi_layer_point *layers)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    const ppmi_texel sheen = lookup(scene, surface, &desc->sheen_color_texture);
+    const ppmi_texel through = lookup(scene, surface, &desc->diffuse_transmission_color_texture);
+    *layers = (ppmi_layer_point){
+        .coat = unit(desc->clearcoat * lookup(scene, surface, &desc->clearcoat_texture).r),
+        .coat_roughness = unit(desc->clearcoat_roughness *
+                               lookup(scene, surface, &desc->clearcoat_roughness_texture).g),
+        .coat_normal = mapped_normal(scene, surface, &desc->clearcoat_normal_texture,
+                                     desc->clearcoat_normal_scale),
+        .sheen_color = {unit(desc->sheen_color[0] * sheen.r), unit(desc->sheen_color[1] * sheen.g),
+                        unit(desc->sheen_color[2] * sheen.b)},
+        .sheen_roughness =
+            unit(desc->sheen_roughness * lookup(scene, surface, &desc->sheen_roughness_texture).a),
+        .through = unit(desc->diffuse_transmission *
+                        lookup(scene, surface, &desc->diffuse_transmission_texture).a),
+        .through_color = {unit(desc->diffuse_transmission_color[0] * through.r),
+                          unit(desc->diffuse_transmission_color[1] * through.g),
+                          unit(desc->diffuse_transmission_color[2] * through.b)},
+        .retro =
+            unit(desc->retroreflection * lookup(scene, surface, &desc->retroreflection_texture).r),
+    };
+    if (desc->iridescence > 0.0f) evaluate_film(scene, surface, layers);
+    evaluate_anisotropy(scene, surface, layers);
 }
 
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
@@ -67,6 +134,8 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
         .transmission =
             unit(desc->transmission * lookup(scene, surface, &desc->transmission_texture).r),
         .is_thin = desc->transmission_kind == PPM_TRANSMISSION_THIN,
-        .ns = mapped_normal(scene, surface),
+        .ns = mapped_normal(scene, surface, &desc->normal_texture, desc->normal_scale),
+        .is_layered = surface->material->is_layered,
     };
+    if (out_point->is_layered) evaluate_layers(scene, surface, &out_point->layers);
 }

@@ -4,6 +4,20 @@
 
 #include "shading/surface.h"
 
+/* What lies on the base, and what the base does beside reflecting and refracting. */
+typedef struct ppmi_layer_point {
+    float coat, coat_roughness;
+    ppmi_vec3 coat_normal; /* front side */
+    ppmi_vec3 sheen_color;
+    float sheen_roughness;
+    float film, film_ior, film_nm; /* iridescence: share, index, thickness */
+    float anisotropy;
+    ppmi_vec3 tangent; /* direction of anisotropy; 0: none */
+    float through;     /* diffuse transmission: share of the diffuse base */
+    ppmi_vec3 through_color;
+    float retro; /* share of the specular reflection */
+} ppmi_layer_point;
+
 typedef struct ppmi_material_point {
     ppmi_vec3 base_color;
     float metallic;
@@ -16,6 +30,8 @@ typedef struct ppmi_material_point {
     float relative_index; /* of refraction, beyond the surface by this side; 0: from ior, with
                              nothing outside */
     ppmi_vec3 ns;         /* shading normal after the normal map, front side */
+    bool is_layered;
+    ppmi_layer_point layers; /* if it is */
 } ppmi_material_point;
 
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,

@@ -48,15 +48,20 @@ static inline float ppmi_ggx_visible_d(float alpha, ppmi_vec3 wo, ppmi_vec3 h)
     return ppmi_ggx_g1(alpha, wo.z) * cos_oh * ppmi_ggx_d(alpha, h) / wo.z;
 }
 
+/* A direction evenly over the spherical cap above -w. */
+static inline ppmi_vec3 ppmi_ggx_sample_cap(ppmi_vec3 w, float u, float v)
+{
+    const float phi = 2.0f * PPMI_PI * u;
+    const float z = (1.0f - v) * (1.0f + w.z) - w.z;
+    const float sin_theta = sqrtf(ppmi_clampf(1.0f - z * z, 0.0f, 1.0f));
+    return vec3(sin_theta * cosf(phi), sin_theta * sinf(phi), z);
+}
+
 /* Draws a visible normal. wo.z > 0. */
 static inline ppmi_vec3 ppmi_ggx_sample_visible(float alpha, ppmi_vec3 wo, float u, float v)
 {
     const ppmi_vec3 w = vec3_normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
-    const float phi = 2.0f * PPMI_PI * u;
-    const float z = (1.0f - v) * (1.0f + w.z) - w.z; /* a spherical cap above -w */
-    const float sin_theta = sqrtf(ppmi_clampf(1.0f - z * z, 0.0f, 1.0f));
-    const ppmi_vec3 cap = vec3(sin_theta * cosf(phi), sin_theta * sinf(phi), z);
-    const ppmi_vec3 h = vec3_add(cap, w);
+    const ppmi_vec3 h = vec3_add(ppmi_ggx_sample_cap(w, u, v), w);
     return vec3_normalize(vec3(alpha * h.x, alpha * h.y, ppmi_max(h.z, 1e-9f)));
 }
 

@@ -14,6 +14,8 @@ static const struct {
     ppmi_vec3 color;
     bool is_thin, from_back;
     float relative_index; /* 0: from ior */
+    bool is_layered;
+    ppmi_layer_point layers;
 } kinds[KINDS] = {
     [KIND_LAMBERT] = {"lambert", 0, 0, 0, 1.5f, {0.8f, 0.5f, 0.2f}, false, false},
     [KIND_PLASTIC] = {"plastic", 0, 0, 1, 1.5f, {0.7f, 0.4f, 0.1f}, false, false},
@@ -31,14 +33,153 @@ static const struct {
         {"glass in water", 0, 1, 1, 1.5f, {1, 1, 1}, false, false, 1.5f / 1.33f},
     [KIND_GLASS_TO_WATER] =
         {"water around glass, from inside", 0, 1, 1, 1.5f, {1, 1, 1}, false, true, 1.33f / 1.5f},
+#define LAYERED false, false, 0, true
+    [KIND_COATED_LAMBERT] =
+        {"coated lambert", 0, 0, 0, 1.5f, {0.8f, 0.5f, 0.2f}, LAYERED, {.coat = 1.0f}},
+    [KIND_WHITE_COATED_PLASTIC] = {"white coated plastic",
+                                   0,
+                                   0,
+                                   1,
+                                   1.5f,
+                                   {1, 1, 1},
+                                   LAYERED,
+                                   {.coat = 1.0f, .coat_roughness = 0.3f}},
+    [KIND_WHITE_COATED_METAL] =
+        {"white coated metal", 1, 0, 1, 1.5f, {1, 1, 1}, LAYERED, {.coat = 0.8f}},
+    [KIND_WHITE_ROUGH_COATED_METAL] = {"white metal, rough coat",
+                                       1,
+                                       0,
+                                       1,
+                                       1.5f,
+                                       {1, 1, 1},
+                                       LAYERED,
+                                       {.coat = 1.0f, .coat_roughness = 0.8f}},
+    [KIND_WHITE_SHEEN] = {"white sheen",
+                          0,
+                          0,
+                          1,
+                          1.5f,
+                          {1, 1, 1},
+                          LAYERED,
+                          {.sheen_color = {1, 1, 1}, .sheen_roughness = 0.5f}},
+    [KIND_WHITE_COATED_SHEEN_METAL] = {"white metal, coat, sheen",
+                                       1,
+                                       0,
+                                       1,
+                                       1.5f,
+                                       {1, 1, 1},
+                                       LAYERED,
+                                       {.coat = 1.0f,
+                                        .sheen_color = {1, 1, 1},
+                                        .sheen_roughness = 0.3f}},
+    [KIND_WHITE_BRUSHED_METAL] = {"white brushed metal",
+                                  1,
+                                  0,
+                                  1,
+                                  1.5f,
+                                  {1, 1, 1},
+                                  LAYERED,
+                                  {.anisotropy = 0.7f, .tangent = {0.8f, 0.6f, 0.0f}}},
+    [KIND_BRUSHED_PLASTIC] = {"brushed plastic",
+                              0,
+                              0,
+                              1,
+                              1.5f,
+                              {0.7f, 0.4f, 0.1f},
+                              LAYERED,
+                              {.anisotropy = 0.5f, .tangent = {0.0f, 1.0f, 0.0f}}},
+    [KIND_FILM_METAL] = {"film on metal",
+                         1,
+                         0,
+                         1,
+                         1.5f,
+                         {1.0f, 0.8f, 0.3f},
+                         LAYERED,
+                         {.film = 1.0f, .film_ior = 1.6f, .film_nm = 300.0f}},
+    [KIND_FILM_PLASTIC] = {"film on plastic",
+                           0,
+                           0,
+                           1,
+                           1.5f,
+                           {1, 1, 1},
+                           LAYERED,
+                           {.film = 0.9f, .film_ior = 2.0f, .film_nm = 350.0f}},
+    [KIND_FILM_GLASS] = {"film on glass",
+                         0,
+                         1,
+                         1,
+                         1.5f,
+                         {1, 1, 1},
+                         LAYERED,
+                         {.film = 1.0f, .film_ior = 1.8f, .film_nm = 450.0f}},
+    [KIND_FILM_THIN_GLASS] = {"film on thin glass",
+                              0,
+                              1,
+                              1,
+                              1.5f,
+                              {1, 1, 1},
+                              true,
+                              false,
+                              0,
+                              true,
+                              {.film = 1.0f, .film_ior = 1.3f, .film_nm = 400.0f}},
+    [KIND_WHITE_LEAF] = {"white leaf",
+                         0,
+                         0,
+                         1,
+                         1.5f,
+                         {1, 1, 1},
+                         LAYERED,
+                         {.through = 0.4f, .through_color = {1, 1, 1}}},
+    [KIND_COATED_LEAF] = {"coated leaf",
+                          0,
+                          0,
+                          1,
+                          1.5f,
+                          {0.2f, 0.5f, 0.1f},
+                          LAYERED,
+                          {.through = 0.7f,
+                           .through_color = {0.4f, 0.8f, 0.2f},
+                           .coat = 0.5f,
+                           .coat_roughness = 0.2f}},
+    [KIND_WHITE_RETRO_METAL] =
+        {"white retroreflective metal", 1, 0, 1, 1.5f, {1, 1, 1}, LAYERED, {.retro = 1.0f}},
+    [KIND_RETRO_PLASTIC] = {"retroreflective plastic",
+                            0,
+                            0,
+                            1,
+                            1.5f,
+                            {0.7f, 0.4f, 0.1f},
+                            LAYERED,
+                            {.retro = 1.0f, .anisotropy = 0.5f, .tangent = {0.6f, 0.8f, 0.0f}}},
+    [KIND_COATED_GLASS] = {"coated glass", 0, 0.7f, 1, 1.5f, {1, 1, 1}, LAYERED, {.coat = 1.0f}},
+    [KIND_WHITE_EVERYTHING] = {"everything, white",
+                               0.5f,
+                               0,
+                               1,
+                               1.5f,
+                               {1, 1, 1},
+                               LAYERED,
+                               {.coat = 0.7f,
+                                .coat_roughness = 0.4f,
+                                .sheen_color = {0.7f, 0.7f, 0.7f},
+                                .sheen_roughness = 0.6f,
+                                .anisotropy = 0.6f,
+                                .tangent = {0.6f, 0.8f, 0.0f},
+                                .through = 0.3f,
+                                .through_color = {1, 1, 1},
+                                .retro = 0.4f}},
+#undef LAYERED
 };
 
 const ppmi_albedo_table *bsdf_albedo(void)
 {
     static ppmi_albedo_table table;
-    static bool is_made;
-    if (!is_made) ppmi_albedo_table_init(&table);
-    is_made = true;
+    static ppmi_lobe_table lobes;
+    if (table.lobes) return &table;
+    ppmi_albedo_table_init(&table);
+    ppmi_lobe_table_init(&lobes);
+    table.lobes = &lobes;
     return &table;
 }
 
@@ -58,7 +199,10 @@ void bsdf_make_case(int kind, float roughness, float cosine, bsdf_case *item, pp
                                         .transmission = kinds[kind].transmission,
                                         .is_thin = kinds[kind].is_thin,
                                         .relative_index = kinds[kind].relative_index,
-                                        .ns = up};
+                                        .ns = up,
+                                        .is_layered = kinds[kind].is_layered,
+                                        .layers = kinds[kind].layers};
+    item->point.layers.coat_normal = up;
     const ppmi_surface surface = {.ng = up, .ns = up};
     const float sine = sqrtf(1.0f - cosine * cosine);
     const ppmi_vec3 wo = vec3(sine, 0.0f, kinds[kind].from_back ? -cosine : cosine);
@@ -68,7 +212,8 @@ void bsdf_make_case(int kind, float roughness, float cosine, bsdf_case *item, pp
 void bsdf_for_all(bsdf_check check, void *user)
 {
     for (int kind = 0; kind < KINDS; kind++) {
-        for (int r = 0; r < ROUGHNESSES; r++) {
+        /* the many layered ones with every second roughness */
+        for (int r = 0; r < ROUGHNESSES; r += kinds[kind].is_layered ? 2 : 1) {
             for (int c = 0; c < COSINES; c++) {
                 bsdf_case item;
                 ppmi_bsdf bsdf;

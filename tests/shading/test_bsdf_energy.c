@@ -47,7 +47,8 @@ static void check_reciprocity(const bsdf_case *item, const ppmi_bsdf *bsdf, void
         /* narrow lobes are met by drawing from them */
         if (i % 2 == 0 && bsdf_draw(bsdf, rng, PPMI_TRANSPORT_POWER, &sample)) wi = sample.wi;
         if (is_grazing(wi)) continue;
-        const bool is_refraction = wi.z * wo.z < 0.0f && !item->point.is_thin;
+        const bool is_refraction =
+            wi.z * wo.z < 0.0f && !item->point.is_thin && item->point.transmission > 0.0f;
         const float eta2 = is_refraction ? bsdf->eta * bsdf->eta : 1.0f;
         const ppmi_vec3 power = value(item, wo, wi, PPMI_TRANSPORT_POWER);
         const ppmi_vec3 radiance = value(item, wo, wi, PPMI_TRANSPORT_RADIANCE);
@@ -125,6 +126,19 @@ static void white_plastic_and_metal_return_all_light(void **state)
     energy_test test = {.seed = 1000};
     check_kind_is_white(&test, KIND_WHITE_PLASTIC);
     check_kind_is_white(&test, KIND_WHITE_METAL);
+    family_check(&test.family);
+}
+
+static void white_layers_return_all_light(void **state)
+{
+    (void)state;
+    static const int kinds[] = {
+        KIND_WHITE_COATED_PLASTIC, KIND_WHITE_COATED_METAL,       KIND_WHITE_ROUGH_COATED_METAL,
+        KIND_WHITE_SHEEN,          KIND_WHITE_COATED_SHEEN_METAL, KIND_WHITE_BRUSHED_METAL,
+        KIND_WHITE_LEAF,           KIND_WHITE_RETRO_METAL,        KIND_WHITE_EVERYTHING};
+    energy_test test = {.seed = 3000};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        check_kind_is_white(&test, kinds[k]);
     family_check(&test.family);
 }
 
@@ -236,6 +250,7 @@ int main(void)
         cmocka_unit_test(bsdfs_are_reciprocal),
         cmocka_unit_test(no_bsdf_makes_energy),
         cmocka_unit_test(white_plastic_and_metal_return_all_light),
+        cmocka_unit_test(white_layers_return_all_light),
         cmocka_unit_test(lambert_returns_its_colour),
         cmocka_unit_test(smooth_glass_splits_light_as_fresnel_says),
         cmocka_unit_test(nearly_smooth_glass_is_like_smooth_glass),

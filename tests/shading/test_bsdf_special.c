@@ -196,8 +196,8 @@ static void branches_are_the_mean_of_draws(void **state)
         ppmi_bsdf bsdf;
         bsdf_make_case(kinds[k], 0.0f, 0.7f, &item, &bsdf);
         ppmi_bsdf_sample branches[PPMI_BSDF_MAX_BRANCHES];
-        const uint32_t count =
-            ppmi_bsdf_branches(&bsdf, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE, branches);
+        const uint32_t count = ppmi_bsdf_branches(&bsdf, bsdf_albedo(), PPMI_LOBE_ALL,
+                                                  PPMI_TRANSPORT_RADIANCE, branches);
         assert_true(count >= 1);
         double expected = 0.0;
         for (uint32_t i = 0; i < count; i++) {

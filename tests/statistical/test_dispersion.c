@@ -105,8 +105,8 @@ static ppmi_vec3 through(const test_world *world, ppmi_walker *walker, double an
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
         ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
-        const uint32_t count =
-            ppmi_bsdf_branches(&bsdf, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER, samples);
+        const uint32_t count = ppmi_bsdf_branches(&bsdf, walker->world->albedo, PPMI_LOBE_ALL,
+                                                  PPMI_TRANSPORT_POWER, samples);
         assert_int_equal(count, 2);
         ppmi_vec3 throughput = vec3_splat(1.0f);
         ray = ppmi_walk_leave(walker, &vertex, &samples[1], &throughput);

@@ -193,9 +193,11 @@ ppm_image_id image_rgb(ppm_scene *scene, uint32_t width, uint32_t height, const 
 static const ppmi_albedo_table *shared_albedo(void)
 {
     static ppmi_albedo_table table;
-    static bool is_made;
-    if (!is_made) ppmi_albedo_table_init(&table);
-    is_made = true;
+    static ppmi_lobe_table lobes;
+    if (table.lobes) return &table;
+    ppmi_albedo_table_init(&table);
+    ppmi_lobe_table_init(&lobes);
+    table.lobes = &lobes;
     return &table;
 }
 

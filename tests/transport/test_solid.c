@@ -94,8 +94,8 @@ static straight_path follow(ppmi_vec3 origin, ppmi_vec3 direction)
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(&walker, &vertex, ray.direction, &bsdf);
         ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
-        const uint32_t count =
-            ppmi_bsdf_branches(&bsdf, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER, samples);
+        const uint32_t count = ppmi_bsdf_branches(&bsdf, walker.world->albedo, PPMI_LOBE_ALL,
+                                                  PPMI_TRANSPORT_POWER, samples);
         if (count == 0 || !samples[count - 1].is_transmission) break;
         ppmi_vec3 throughput = vec3_splat(1.0f);
         ray = ppmi_walk_leave(&walker, &vertex, &samples[count - 1], &throughput);
@@ -333,8 +333,8 @@ static void check_table(float glass_low, ppmi_vec3 moved)
         ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
         assert_int_equal(ppmi_walk(&walker, ray, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
         ppmi_walk_bsdf(&walker, &vertex, ray.direction, &bsdf);
-        const uint32_t count =
-            ppmi_bsdf_branches(&bsdf, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER, samples);
+        const uint32_t count = ppmi_bsdf_branches(&bsdf, walker.world->albedo, PPMI_LOBE_ALL,
+                                                  PPMI_TRANSPORT_POWER, samples);
         ppmi_vec3 throughput = vec3_splat(1.0f);
         ray = ppmi_walk_leave(&walker, &vertex, &samples[count - 1], &throughput);
         assert_int_equal(ppmi_walk(&walker, ray, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
