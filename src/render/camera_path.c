@@ -7,6 +7,28 @@
  * a set more. Time has a set of its own, beyond those of the path. */
 enum { STRATIFIED_SETS = 4, TIME_SET = 64 };
 
+/* Textures are filtered over this part of a pixel in a pass. One pass alone has to filter over the
+ * whole pixel; many that fall all over it need less and less, and what they filter is blur that
+ * stays (Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 10.1.3, scales by the
+ * square root of the samples a pixel, down to an eighth; here their number is open). */
+static float filtered_part(uint64_t pass)
+{
+    enum { FULL = 64 };
+    return pass < FULL ? 1.0f / sqrtf((float)(pass + 1)) : 0.125f;
+}
+
+static ppmi_differential differential_of(const ppmi_camera_ray *ray, float part)
+{
+    return (ppmi_differential){
+        .is_known = true,
+        .direction = ray->ray.direction,
+        .position_dx = vec3_scale(ray->position_dx, part),
+        .position_dy = vec3_scale(ray->position_dy, part),
+        .direction_dx = vec3_scale(ray->direction_dx, part),
+        .direction_dy = vec3_scale(ray->direction_dy, part),
+    };
+}
+
 ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
                                        uint32_t y, uint64_t pass)
 {
@@ -33,6 +55,9 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
     if (job->options->shutter_close > job->options->shutter_open) {
         walker->time = (float)ppmi_sobol1((uint32_t)pass, TIME_SET, seed);
         result.ray.time = walker->time;
+    }
+    if (job->world.has_textures) {
+        walker->differential = differential_of(&result, filtered_part(pass));
     }
     return result;
 }
