@@ -8,6 +8,7 @@ enum { MAX_LISTED = 64 }; /* of the used ones */
 
 static const char *const supported[] = {
     "EXT_mesh_gpu_instancing",
+    "EXT_texture_avif",
     "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_dispersion",
@@ -19,6 +20,7 @@ static const char *const supported[] = {
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
+    "MSFT_texture_dds",
 };
 
 static bool is_supported(const char *name)

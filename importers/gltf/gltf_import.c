@@ -128,6 +128,7 @@ static ppm_status run(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_load_images(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
     return status;

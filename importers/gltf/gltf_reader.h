@@ -21,6 +21,7 @@ typedef struct ppmi_gltf_bytes {
 /* An image in one role. */
 typedef struct ppmi_gltf_image_use {
     bool is_tried;
+    bool is_wanted;  /* by a material that has been looked at (gltf_image_batch.c) */
     ppm_image_id id; /* 0 after a failure */
 } ppmi_gltf_image_use;
 
@@ -54,6 +55,7 @@ typedef struct ppmi_gltf_reader {
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
     ppm_material_id default_material; /* 0: not added yet */
+    bool is_looking_at_textures;      /* textures are noted, not loaded (gltf_image_batch.c) */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
@@ -129,6 +131,17 @@ ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char
 /* gltf_material.c: the material's id, adding it at its first use; -1 is the default material. */
 ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, const char *place,
                                   ppm_material_id *out_id);
+
+/* Goes through the textures of a material, silently and without adding anything. */
+void ppmi_gltf_visit_material(ppmi_gltf_reader *reader, int32_t material);
+
+/* gltf_image_batch.c: adds the images that the materials of the chosen scene use, in parallel. What
+ * it does not foresee is added at its first use. */
+ppm_status ppmi_gltf_load_images(ppmi_gltf_reader *reader);
+
+/* gltf_image.c: adds images, each in a role (2 * index, plus 1 for PPM_IMAGE_DATA), in parallel;
+ * what cannot be had is left out with a warning. */
+ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, size_t count);
 
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */
