@@ -7,25 +7,25 @@
  * a set more. Time has a set of its own, beyond those of the path. */
 enum { STRATIFIED_SETS = 4, TIME_SET = 64 };
 
-/* Textures are filtered over this part of a pixel in a pass. One pass alone has to filter over the
- * whole pixel; many that fall all over it need less and less, and what they filter is blur that
- * stays (Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 10.1.3, scales by the
- * square root of the samples a pixel, down to an eighth; here their number is open). */
-static float filtered_part(uint64_t pass)
+/* Side of the square that textures are filtered over in a pass, in pixels. One pass alone has to
+ * filter over about the whole pixel; the n-th finds n - 1 others spread over it, and stands for its
+ * n-th part. What is filtered more than that is blur that stays, so there is no least side. The
+ * factor is for the look-up, whose filter is broader than its footprint: box and tent together have
+ * the variance of a box of sqrt(3) times the side. (docs/textures.md has what was measured.) */
+static float filtered_side(uint64_t pass)
 {
-    enum { FULL = 64 };
-    return pass < FULL ? 1.0f / sqrtf((float)(pass + 1)) : 0.125f;
+    return 0.7f / sqrtf((float)pass + 1.0f);
 }
 
-static ppmi_differential differential_of(const ppmi_camera_ray *ray, float part)
+static ppmi_differential differential_of(const ppmi_camera_ray *ray, float side)
 {
     return (ppmi_differential){
         .is_known = true,
         .direction = ray->ray.direction,
-        .position_dx = vec3_scale(ray->position_dx, part),
-        .position_dy = vec3_scale(ray->position_dy, part),
-        .direction_dx = vec3_scale(ray->direction_dx, part),
-        .direction_dy = vec3_scale(ray->direction_dy, part),
+        .position_dx = vec3_scale(ray->position_dx, side),
+        .position_dy = vec3_scale(ray->position_dy, side),
+        .direction_dx = vec3_scale(ray->direction_dx, side),
+        .direction_dy = vec3_scale(ray->direction_dy, side),
     };
 }
 
@@ -57,7 +57,7 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
         result.ray.time = walker->time;
     }
     if (job->world.has_textures) {
-        walker->differential = differential_of(&result, filtered_part(pass));
+        walker->differential = differential_of(&result, filtered_side(pass));
     }
     return result;
 }
