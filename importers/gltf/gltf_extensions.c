@@ -18,6 +18,7 @@ static const struct {
     {"EXT_mesh_gpu_instancing", PPM_FEATURE_HONOURED, ""},
     {"EXT_meshopt_compression", PPM_FEATURE_IGNORED,
      "the geometry is compressed; write the file without mesh compression"},
+    {"EXT_texture_avif", PPM_FEATURE_HONOURED, ""},
     {"EXT_texture_webp", PPM_FEATURE_HONOURED, ""},
     {"KHR_draco_mesh_compression", PPM_FEATURE_IGNORED,
      "the geometry is compressed; write the file without mesh compression"},
@@ -48,6 +49,7 @@ static const struct {
      "the textures are KTX2 files; write them as PNG, JPEG or WebP"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
     {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet; no effect on the picture"},
+    {"MSFT_texture_dds", PPM_FEATURE_HONOURED, ""},
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 

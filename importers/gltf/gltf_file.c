@@ -161,7 +161,8 @@ static ppm_status load_from_uri(ppmi_gltf_reader *reader, const char *uri, size_
             reason = "the data URI is shorter than byteLength";
         }
     } else {
-        status = ppmi_gltf_uri_path(context, reader->path, uri, length, &path, &reason);
+        status = ppmi_gltf_uri_path(context, reader->path, reader->options->allow_outside != 0, uri,
+                                    length, &path, &reason);
         if (status == PPM_STATUS_OK) {
             status = read_bytes(context, path, wanted, &out->owned, &out->count, &reason);
         }

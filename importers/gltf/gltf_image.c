@@ -1,5 +1,6 @@
-/* Textures and images. An image is decoded at its first use in a role; what is missing, broken or
- * of an unknown format is left out with a warning, and the material's factor alone is used. */
+/* Textures and images. An image is added once in each role, in a batch before the materials or at
+ * its first use; what is missing, broken or of an unknown format is left out with a warning, and
+ * the material's factor alone is used. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,7 +30,9 @@ static bool is_regular_file(const char *path)
 /* One image on its way to the scene. */
 typedef struct source {
     ppm_image_desc desc;
-    void *owned;        /* what desc points to, if it was allocated for it */
+    void *owned; /* what desc points to, if it was allocated for it */
+    char place[PPMI_GLTF_PLACE], name[2 * PPMI_GLTF_PLACE]; /* desc.name */
+    ppm_status status;
     char shown[64];     /* its URI, for messages */
     const char *reason; /* why it cannot be had */
 } source;
@@ -50,7 +53,9 @@ static ppm_status locate_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span, sour
         if (status == PPM_STATUS_OK && !bytes) s->reason = "the data URI is empty";
         s->desc.bytes = s->owned = bytes;
     } else {
-        status = ppmi_gltf_uri_path(reader->context, reader->path, uri, length, &path, &s->reason);
+        status =
+            ppmi_gltf_uri_path(reader->context, reader->path, reader->options->allow_outside != 0,
+                               uri, length, &path, &s->reason);
         if (status == PPM_STATUS_OK && !is_regular_file(path)) s->reason = "it cannot be opened";
         s->desc.path = s->owned = path;
     }
@@ -73,21 +78,71 @@ static ppm_status locate(ppmi_gltf_reader *reader, const ppmi_gltf_source *from,
     return status;
 }
 
-static ppm_status add_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
-                            ppm_image_id *out_id)
+static void prepare(ppmi_gltf_reader *reader, size_t use, source *s)
 {
-    char place[PPMI_GLTF_PLACE], name[2 * PPMI_GLTF_PLACE];
-    ppmi_gltf_place(place, "images[%d]", (int)index);
-    snprintf(name, sizeof name, "%s: %s", reader->path, place);
-    source s = {.desc = {.size = sizeof s.desc, .name = name, .role = role}};
-    ppm_status status = locate(reader, &reader->outline.images.items[index], place, &s);
-    if (status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, place);
-    if (status == PPM_STATUS_OK) status = ppm_scene_add_image(reader->scene, &s.desc, out_id);
-    ppmi_free(reader->context, s.owned);
-    if (!is_about_input(status)) return status;
-    ppmi_gltf_warn(reader, place, "left out%s%s%s: %s", s.shown[0] ? " (\"" : "", s.shown,
-                   s.shown[0] ? "\")" : "", s.reason ? s.reason : "see the message above");
+    const size_t index = use / 2;
+    *s = (source){
+        .desc = {.size = sizeof s->desc, .role = use % 2 == 1 ? PPM_IMAGE_DATA : PPM_IMAGE_COLOR}};
+    ppmi_gltf_place(s->place, "images[%zu]", index);
+    snprintf(s->name, sizeof s->name, "%s: %s", reader->path, s->place);
+    s->desc.name = s->name;
+    s->status = locate(reader, &reader->outline.images.items[index], s->place, s);
+    if (s->status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, s->place);
+}
+
+/* Adds those of the sources that have been located. */
+static ppm_status add_located(ppmi_gltf_reader *reader, const size_t *uses, source *sources,
+                              size_t count)
+{
+    ppm_context *context = reader->context;
+    ppm_image_desc *descs = ppmi_alloc(context, count, sizeof *descs);
+    ppm_image_id *ids = ppmi_alloc(context, count, sizeof *ids);
+    ppm_status *statuses = ppmi_alloc(context, count, sizeof *statuses);
+    ppm_status status = PPM_STATUS_OK;
+    uint32_t located = 0;
+    if (!descs || !ids || !statuses) status = ppmi_gltf_out_of_memory(reader, "images");
+    for (size_t i = 0; i < count && status == PPM_STATUS_OK; ++i) {
+        if (sources[i].status == PPM_STATUS_OK) descs[located++] = sources[i].desc;
+    }
+    if (status == PPM_STATUS_OK) {
+        status = ppm_scene_add_images(reader->scene, descs, located, ids, statuses);
+    }
+    for (size_t i = 0, k = 0; i < count && status == PPM_STATUS_OK; ++i) {
+        if (sources[i].status != PPM_STATUS_OK) continue;
+        sources[i].status = statuses[k];
+        reader->images[uses[i]].id = ids[k++];
+    }
+    ppmi_free(context, descs);
+    ppmi_free(context, ids);
+    ppmi_free(context, statuses);
+    return status;
+}
+
+/* A failure that is about the input costs the image only. */
+static ppm_status conclude(ppmi_gltf_reader *reader, const source *s)
+{
+    if (!is_about_input(s->status)) return s->status;
+    ppmi_gltf_warn(reader, s->place, "left out%s%s%s: %s", s->shown[0] ? " (\"" : "", s->shown,
+                   s->shown[0] ? "\")" : "", s->reason ? s->reason : "see the message above");
     return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, size_t count)
+{
+    if (count == 0) return PPM_STATUS_OK;
+    source *sources = ppmi_alloc(reader->context, count, sizeof *sources);
+    if (!sources) return ppmi_gltf_out_of_memory(reader, "images");
+    for (size_t i = 0; i < count; ++i) {
+        prepare(reader, uses[i], &sources[i]);
+        reader->images[uses[i]].is_tried = true;
+    }
+    ppm_status status = add_located(reader, uses, sources, count);
+    for (size_t i = 0; i < count; ++i) {
+        if (status == PPM_STATUS_OK) status = conclude(reader, &sources[i]);
+        ppmi_free(reader->context, sources[i].owned);
+    }
+    ppmi_free(reader->context, sources);
+    return status;
 }
 
 /* 0 when the image cannot be had. */
@@ -96,13 +151,14 @@ static ppm_status use_image(ppmi_gltf_reader *reader, int32_t index, int32_t rol
 {
     *out_id = 0;
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_IMAGES, index, place)) return PPM_STATUS_OK;
-    ppmi_gltf_image_use *use = &reader->images[2 * index + (role == PPM_IMAGE_DATA)];
+    const size_t use = 2 * (size_t)index + (role == PPM_IMAGE_DATA);
     ppm_status status = PPM_STATUS_OK;
-    if (!use->is_tried) {
-        use->is_tried = true;
-        status = add_image(reader, index, role, &use->id);
+    if (reader->is_looking_at_textures) {
+        reader->images[use].is_wanted = true;
+    } else if (!reader->images[use].is_tried) {
+        status = ppmi_gltf_add_images(reader, &use, 1);
     }
-    *out_id = use->id;
+    *out_id = reader->images[use].id;
     return status;
 }
 
@@ -139,19 +195,22 @@ static void apply_transform(const ppmi_gltf_texture_info *info, ppm_texture *out
     }
 }
 
-/* The sources of a texture, best first. A KTX2 image comes last: if there is another one, it shows
+/* The sources of a texture: those of extensions, which their writer thought the better ones, before
+ * the plain one, which is the fallback. A KTX2 image comes last: if there is another one, it shows
  * the same and can be read. */
 static ppm_status use_sources(ppmi_gltf_reader *reader, const ppmi_gltf_texture *texture,
                               int32_t role, const char *place, ppm_image_id *out_id)
 {
-    const int32_t sources[] = {texture->webp_source, texture->source, texture->basisu_source};
+    const int32_t sources[] = {texture->webp_source, texture->avif_source, texture->dds_source,
+                               texture->source, texture->basisu_source};
     ppm_status status = PPM_STATUS_OK;
     bool is_any = false;
     *out_id = 0;
-    for (size_t i = 0; i < 3 && *out_id == 0 && status == PPM_STATUS_OK; ++i) {
+    for (size_t i = 0; i < 5 && *out_id == 0 && status == PPM_STATUS_OK; ++i) {
         if (sources[i] < 0) continue;
         is_any = true;
         status = use_image(reader, sources[i], role, place, out_id);
+        if (reader->is_looking_at_textures) break; /* the others only if the first fails */
     }
     if (!is_any) ppmi_gltf_warn(reader, place, "left out: the texture names no image");
     return status;

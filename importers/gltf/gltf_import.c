@@ -127,6 +127,7 @@ static ppm_status run(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_load_images(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);

@@ -186,6 +186,17 @@ static ppm_status add_material(ppmi_gltf_reader *reader, int32_t index, ppm_mate
     return ppm_scene_add_material(reader->scene, &desc, out_id);
 }
 
+void ppmi_gltf_visit_material(ppmi_gltf_reader *reader, int32_t material)
+{
+    ppm_context *const context = reader->context;
+    const ppmi_gltf_tally tally = reader->tally;
+    conversion c = {.reader = reader, .from = &reader->document->materials[material]};
+    reader->context = NULL; /* messages come when the material is used */
+    convert(&c);
+    reader->context = context;
+    reader->tally = tally;
+}
+
 /* The specification's material for primitives that name none: white metal, rough. */
 static ppm_status use_default(ppmi_gltf_reader *reader, ppm_material_id *out_id)
 {

@@ -22,6 +22,7 @@ typedef struct ppmi_gltf_bytes {
 /* An image in one role. */
 typedef struct ppmi_gltf_image_use {
     bool is_tried;
+    bool is_wanted;  /* by a material that has been looked at (gltf_image_batch.c) */
     ppm_image_id id; /* 0 after a failure */
 } ppmi_gltf_image_use;
 
@@ -55,6 +56,7 @@ struct ppmi_gltf_reader {
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
     ppm_material_id default_material; /* 0: not added yet */
+    bool is_looking_at_textures;      /* textures are noted, not loaded (gltf_image_batch.c) */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
     uint32_t variant;                 /* that is shown, from 1; 0: the plain materials */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
@@ -145,6 +147,17 @@ int32_t ppmi_gltf_variant_material(const ppmi_gltf_reader *reader,
 /* gltf_xmp.c: fills in reader->xmp with the asset's metadata (KHR_xmp_json_ld) as it stands in the
  * file. A packet that does not exist is warned about. Returns OK, OUT_OF_MEMORY. */
 ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader);
+
+/* Goes through the textures of a material, silently and without adding anything. */
+void ppmi_gltf_visit_material(ppmi_gltf_reader *reader, int32_t material);
+
+/* gltf_image_batch.c: adds the images that the materials of the chosen scene use, in parallel. What
+ * it does not foresee is added at its first use. */
+ppm_status ppmi_gltf_load_images(ppmi_gltf_reader *reader);
+
+/* gltf_image.c: adds images, each in a role (2 * index, plus 1 for PPM_IMAGE_DATA), in parallel;
+ * what cannot be had is left out with a warning. */
+ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, size_t count);
 
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */

@@ -243,7 +243,9 @@ ppmi_gltf_material copy_material(const tinygltf::Material &from)
 ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
 {
     return {from.source, index_or(extension(from.extensions, "EXT_texture_webp"), "source", -1),
-            index_or(extension(from.extensions, "KHR_texture_basisu"), "source", -1), from.sampler};
+            index_or(extension(from.extensions, "KHR_texture_basisu"), "source", -1),
+            index_or(extension(from.extensions, "EXT_texture_avif"), "source", -1),
+            index_or(extension(from.extensions, "MSFT_texture_dds"), "source", -1), from.sampler};
 }
 
 // ---- geometry -----------------------------------------------------------------------------------

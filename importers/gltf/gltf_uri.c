@@ -1,6 +1,7 @@
 /* URIs: RFC 2397 for data, RFC 3986 for the rest. A file that somebody sends must not make us read
- * outside of its folder, so only relative paths that stay inside are files; symbolic links in the
- * folder are its owner's affair. */
+ * outside of its folder, so only relative paths that stay inside are files, unless the caller
+ * trusts the file (allow_outside); symbolic links in the folder are its owner's affair. Nothing is
+ * ever fetched from a network. */
 #include "gltf/gltf_uri.h"
 
 #include <stdint.h>
@@ -139,14 +140,58 @@ static bool stays_inside(const char *path)
     return depth > 0;
 }
 
-ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, const char *uri,
-                              size_t length, char **out_path, const char **out_reason)
+/* The path in file:/path, file:///path or file://localhost/path (RFC 8089); NULL for another
+ * machine's. */
+static const char *file_uri_path(const char *uri, size_t length)
+{
+    static const char authority[] = "//", localhost[] = "localhost";
+    const char *path = uri + 5, *end = uri + length;
+    if (end - path >= 2 && memcmp(path, authority, 2) == 0) {
+        path += 2;
+        const size_t left = (size_t)(end - path), host = sizeof localhost - 1;
+        if (left >= host && equals_ignoring_case(path, localhost, host)) path += host;
+    }
+    return path < end && *path == '/' ? path : NULL;
+}
+
+/* Takes the scheme off; *uri is then a path, percent-encoded. */
+static const char *scheme_fault(bool allow_outside, const char **uri, size_t *length)
+{
+    const char *const begin = *uri;
+    if (!has_scheme(begin, *length)) return NULL;
+    if (*length >= 5 && equals_ignoring_case(begin, "http", 4)) {
+        return "nothing is fetched from a network; save it beside the asset and name that file";
+    }
+    if (*length < 5 || !equals_ignoring_case(begin, "file:", 5)) {
+        return "only files are read, no other URI";
+    }
+    if (!allow_outside) return "file: URIs are not read, unless files outside are allowed";
+    const char *path = file_uri_path(begin, *length);
+    if (!path) return "the file: URI names no path of this machine";
+    *length -= (size_t)(path - begin);
+    *uri = path;
+    return NULL;
+}
+
+static const char *path_fault(bool allow_outside, const char *path, size_t length)
+{
+    if (memchr(path, 0, length)) return "the URI holds a zero byte";
+    if (allow_outside) return NULL;
+    if (path[0] == '/') return "absolute paths are not read, unless files outside are allowed";
+    return stays_inside(path)
+               ? NULL
+               : "the path leaves the asset's folder; such are read only if files outside are "
+                 "allowed";
+}
+
+ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, bool allow_outside,
+                              const char *uri, size_t length, char **out_path,
+                              const char **out_reason)
 {
     *out_path = NULL;
     if (length == 0) return refuse("the URI is empty", out_reason);
-    if (has_scheme(uri, length)) {
-        return refuse("only files in the asset's folder are read, no other URI", out_reason);
-    }
+    const char *fault = scheme_fault(allow_outside, &uri, &length);
+    if (fault) return refuse(fault, out_reason);
     const char *slash = strrchr(asset_path, '/');
     const size_t folder = slash ? (size_t)(slash - asset_path) + 1 : 0;
     char *path = ppmi_alloc(context, folder + length + 1, 1);
@@ -159,14 +204,12 @@ ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, cons
         if (relative[i] == '\\')
             relative[i] = '/'; /* not legal in a URI; some exporters write it */
     }
-    const char *fault = NULL;
-    if (memchr(relative, 0, count)) fault = "the URI holds a zero byte";
-    if (!fault && relative[0] == '/') fault = "absolute paths are not read";
-    if (!fault && !stays_inside(relative)) fault = "the path leaves the asset's folder";
+    fault = path_fault(allow_outside, relative, count);
     if (fault) {
         ppmi_free(context, path);
         return refuse(fault, out_reason);
     }
+    if (relative[0] == '/') memmove(path, relative, count + 1);
     *out_path = path;
     return PPM_STATUS_OK;
 }

@@ -15,9 +15,10 @@ ppm_status ppmi_gltf_uri_decode_data(ppm_context *context, const char *uri, size
                                      const char **out_reason);
 
 /* The file that a relative URI names, percent-decoded, in the folder of asset_path. *out_path is
- * the caller's. Refused are other schemes, absolute paths and paths that leave the folder. Returns
- * as above. */
-ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, const char *uri,
-                              size_t length, char **out_path, const char **out_reason);
+ * the caller's. Refused are other schemes, absolute paths and paths that leave the folder; with
+ * allow_outside only schemes other than file: on this machine. Returns as above. */
+ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, bool allow_outside,
+                              const char *uri, size_t length, char **out_path,
+                              const char **out_reason);
 
 #endif

@@ -73,6 +73,15 @@ PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *d
  * OK, INVALID_ARGUMENT. */
 PPM_API ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float out_rgba[4]);
 
+/* Decodes and keeps count images, as many at once as there are processors. Ids and messages are in
+ * the order of descs, whatever image is ready first. out_ids and out_statuses have count entries: 0
+ * and what ppm_scene_add_image would have returned for an image that fails; the others are added.
+ * Returns OK also where images fail; INVALID_ARGUMENT for a desc that is not valid (nothing is
+ * added then), OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_add_images(ppm_scene *scene, const ppm_image_desc *descs,
+                                        uint32_t count, ppm_image_id *out_ids,
+                                        ppm_status *out_statuses);
+
 enum { PPM_WRAP_REPEAT = 0, PPM_WRAP_CLAMP = 1, PPM_WRAP_MIRROR = 2 };
 enum { PPM_FILTER_LINEAR = 0, PPM_FILTER_NEAREST = 1 };
 

@@ -12,6 +12,13 @@
 
 enum { MESSAGE_SIZE = 2048 };
 
+/* A message of a fork. */
+typedef struct waiting_message {
+    struct waiting_message *next;
+    ppm_log_level level;
+    char text[];
+} waiting_message;
+
 struct ppm_context {
     ppm_log_fn log;
     void *log_user;
@@ -21,6 +28,8 @@ struct ppm_context {
     atomic_size_t live_bytes;
     size_t most_bytes; /* live_bytes stays below */
     atomic_size_t fail_countdown;
+    ppm_context *parent; /* of a fork, whose memory it uses; else NULL */
+    waiting_message *first, *last;
 };
 
 /* What the process may reasonably hold: the machine's memory, or the limit of its control group.
@@ -80,8 +89,26 @@ size_t ppm_context_last_error(ppm_context *context, char *buffer, size_t buffer_
     return length;
 }
 
+/* A fork's message waits. One that there is no memory for comes at once. */
+static bool wait_with(ppm_context *fork, ppm_log_level level, const char *text)
+{
+    const size_t bytes = strlen(text) + 1;
+    waiting_message *message = malloc(sizeof *message + bytes);
+    if (!message) return false;
+    message->next = NULL;
+    message->level = level;
+    memcpy(message->text, text, bytes);
+    *(fork->last ? &fork->last->next : &fork->first) = message;
+    fork->last = message;
+    return true;
+}
+
 static void deliver(ppm_context *context, ppm_log_level level, const char *message)
 {
+    if (context->parent) {
+        if (wait_with(context, level, message)) return;
+        context = context->parent;
+    }
     pthread_mutex_lock(&context->lock);
     if (level == PPM_LOG_ERROR) {
         snprintf(context->last_error, sizeof context->last_error, "%s", message);
@@ -111,6 +138,33 @@ ppm_status ppmi_fail(ppm_context *context, ppm_status status, const char *format
     va_end(arguments);
     deliver(context, PPM_LOG_ERROR, message);
     return status;
+}
+
+ppm_context *ppmi_context_fork(ppm_context *parent)
+{
+    ppm_context *fork = NULL;
+    const ppm_context_desc desc = {.size = sizeof desc};
+    if (ppm_context_create(&desc, &fork) != PPM_STATUS_OK) return NULL;
+    fork->parent = parent->parent ? parent->parent : parent;
+    return fork;
+}
+
+void ppmi_context_join(ppm_context *fork)
+{
+    if (!fork) return;
+    while (fork->first) {
+        waiting_message *const message = fork->first;
+        deliver(fork->parent, message->level, message->text);
+        fork->first = message->next;
+        free(message);
+    }
+    ppm_context_destroy(fork);
+}
+
+/* Who keeps the books of memory. */
+static ppm_context *bookkeeper(ppm_context *context)
+{
+    return context && context->parent ? context->parent : context;
 }
 
 static bool fault_is_due(ppm_context *context)
@@ -143,6 +197,7 @@ void *ppmi_alloc(ppm_context *context, size_t count, size_t element_size)
 {
     enum { ALIGNMENT = 64 };
     if (count == 0 || element_size == 0) return NULL;
+    context = bookkeeper(context);
     if (count > (SIZE_MAX - ALIGNMENT) / element_size || fault_is_due(context)) return NULL;
     /* aligned_alloc wants a multiple of the alignment */
     const size_t bytes = (count * element_size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
@@ -168,6 +223,7 @@ void *ppmi_alloc_zeroed(ppm_context *context, size_t count, size_t element_size)
 void ppmi_free(ppm_context *context, void *memory)
 {
     if (!memory) return;
+    context = bookkeeper(context);
     if (context) unbook(context, malloc_usable_size(memory));
     free(memory);
 }

@@ -26,6 +26,13 @@ void ppmi_log(ppm_context *context, ppm_log_level level, const char *format, ...
 ppm_status ppmi_fail(ppm_context *context, ppm_status status, const char *format, ...)
     PPMI_PRINTF(3, 4);
 
+/* A context for one task among several that run at once: its memory is the parent's, its messages
+ * wait. NULL when memory is out. */
+ppm_context *ppmi_context_fork(ppm_context *parent);
+/* Delivers the messages to the parent, in their order, and destroys the fork. Called for one task
+ * after the other, it makes the log the same however the tasks ran. NULL is fine. */
+void ppmi_context_join(ppm_context *fork);
+
 /* count * element_size bytes, aligned to 64, not initialised. NULL when memory is out (or all
  * blocks of the context together would be more than the machine has), when the product overflows,
  * or for a count of 0. Nothing is reported: the caller knows what it was for. Free with ppmi_free;

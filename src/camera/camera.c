@@ -38,6 +38,12 @@ void ppmi_camera_view_set_lens(ppmi_camera_view *view, float f_number, float foc
     view->has_lens = true;
 }
 
+/* Change of a unit vector when a vector along it, of length 1 / scale, changes by step. */
+static ppmi_vec3 unit_change(ppmi_vec3 unit, ppmi_vec3 step, float scale)
+{
+    return vec3_scale(vec3_mad(step, unit, -vec3_dot(unit, step)), scale);
+}
+
 ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x, float y,
                                           ppmi_vec2 lens)
 {
@@ -49,8 +55,12 @@ ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x,
         .base_width = view->base_width,
         .spread = view->spread,
     };
+    const ppmi_vec3 step_x = vec3_scale(view->right, 2.0f / view->width);
+    const ppmi_vec3 step_y = vec3_scale(view->up, -2.0f / view->height);
     if (!view->is_perspective) {
         result.ray.origin = vec3_add(view->origin, offset);
+        result.position_dx = step_x;
+        result.position_dy = step_y;
         return result;
     }
     if (view->has_lens) { /* all points of the lens aim at one point of the sharp plane */
@@ -59,7 +69,11 @@ ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x,
         result.ray.origin = vec3_add(view->origin, shift);
         offset = vec3_mad(offset, shift, -view->inverse_focus);
     }
-    result.ray.direction = vec3_normalize(vec3_add(view->forward, offset));
+    const ppmi_vec3 through = vec3_add(view->forward, offset);
+    result.ray.direction = vec3_normalize(through);
+    const float scale = 1.0f / vec3_length(through);
+    result.direction_dx = unit_change(result.ray.direction, step_x, scale);
+    result.direction_dy = unit_change(result.ray.direction, step_y, scale);
     return result;
 }
 

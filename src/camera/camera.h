@@ -44,6 +44,9 @@ void ppmi_camera_view_set_lens(ppmi_camera_view *view, float f_number, float foc
 typedef struct ppmi_camera_ray {
     ppmi_ray ray; /* unit direction */
     float base_width, spread;
+    ppmi_vec3 position_dx, position_dy;   /* change by one pixel to the right and one down, for one
+                                             point of the lens, metres */
+    ppmi_vec3 direction_dx, direction_dy; /* of the unit direction */
 } ppmi_camera_ray;
 
 /* The ray through the middle of the lens. x to the right in 0 .. width, y down in 0 .. height, in

@@ -7,6 +7,7 @@
 
 #include "imageio/file.h"
 #include "imageio/format.h"
+#include "imageio/heif_check.h"
 #include "imageio/oiio_shim.h"
 #include "imageio/png_check.h"
 
@@ -115,9 +116,14 @@ static ppm_status check_header(ppm_context *context, const char *name,
     if (info->channels < 1) {
         return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: an image without channels", name);
     }
+    /* where the encoding has no bound, an even picture of 8k x 8k may be a few bytes; more than
+     * that has to look like a picture */
+    const double free_pixels = 0x1p26, usual_bound = 1032 * 8;
     const double pixels = (double)info->width * info->height;
-    if (format->pixels_per_byte_max > 0 &&
-        pixels > (double)format->pixels_per_byte_max * (double)byte_count) {
+    const double most = format->pixels_per_byte_max > 0
+                            ? (double)format->pixels_per_byte_max * (double)byte_count
+                            : fmax(free_pixels, usual_bound * (double)byte_count);
+    if (pixels > most) {
         return ppmi_fail(context, PPM_STATUS_INPUT_INVALID,
                          "%s: claims %d x %d pixels, more than its %zu bytes can hold", name,
                          info->width, info->height, byte_count);
@@ -276,6 +282,8 @@ ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, siz
     ppm_status status = PPM_STATUS_OK;
     if (strcmp(format->oiio, "png") == 0) {
         status = ppmi_imageio_png_check(context, bytes, byte_count, name);
+    } else if (strcmp(format->oiio, "heif") == 0) {
+        status = ppmi_imageio_heif_check(context, bytes, byte_count, name);
     }
     if (status != PPM_STATUS_OK) return status;
     ppmi_oiio_reader *reader = NULL;

@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -17,9 +20,45 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
+/* Bytes in memory under a name in the file system, for decoders that know nothing else (HEIF). */
+class memory_file
+{
+  public:
+    memory_file() = default;
+    memory_file(const memory_file &) = delete;
+    memory_file &operator=(const memory_file &) = delete;
+    ~memory_file()
+    {
+        if (descriptor >= 0) close(descriptor);
+    }
+
+    bool write(const void *data, size_t size)
+    {
+        descriptor = memfd_create("image", MFD_CLOEXEC);
+        if (descriptor < 0) return false;
+        const char *bytes = static_cast<const char *>(data);
+        while (size > 0) {
+            const ssize_t written = ::write(descriptor, bytes, size);
+            if (written <= 0) return false;
+            bytes += written;
+            size -= (size_t)written;
+        }
+        return true;
+    }
+
+    std::string path() const
+    {
+        return "/proc/self/fd/" + std::to_string(descriptor);
+    }
+
+  private:
+    int descriptor = -1;
+};
+
 /* Members are destroyed from the last to the first: the input goes before what it reads from. */
 struct ppmi_oiio_reader {
     OIIO::Filesystem::IOMemReader bytes;
+    memory_file file;
     std::unique_ptr<ImageInput> input;
 
     ppmi_oiio_reader(const void *data, size_t size) : bytes(data, size)
@@ -89,10 +128,18 @@ static ppm_status open_reader(ppm_context *context, const char *format, const vo
     }
     ImageInput &input = *reader->input;
     input.threads(1); /* the caller decides about threads */
-    input.set_ioproxy(&reader->bytes);
+    std::string path = name;
+    if (input.supports("ioproxy")) {
+        input.set_ioproxy(&reader->bytes);
+    } else if (reader->file.write(bytes, byte_count)) {
+        path = reader->file.path();
+    } else {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no room for a copy of the file",
+                         name);
+    }
     ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input.open(name, spec, config)) {
+    if (!input.open(path, spec, config)) {
         const std::string reason = message_of(input);
         return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: not a usable %s image: %s", name,
                          format, reason.c_str());

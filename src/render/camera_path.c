@@ -7,6 +7,28 @@
  * a set more. Time has a set of its own, beyond those of the path. */
 enum { STRATIFIED_SETS = 4, TIME_SET = 64 };
 
+/* Side of the square that textures are filtered over in a pass, in pixels. One pass alone has to
+ * filter over about the whole pixel; the n-th finds n - 1 others spread over it, and stands for its
+ * n-th part. What is filtered more than that is blur that stays, so there is no least side. The
+ * factor is for the look-up, whose filter is broader than its footprint: box and tent together have
+ * the variance of a box of sqrt(3) times the side. (docs/textures.md has what was measured.) */
+static float filtered_side(uint64_t pass)
+{
+    return 0.7f / sqrtf((float)pass + 1.0f);
+}
+
+static ppmi_differential differential_of(const ppmi_camera_ray *ray, float side)
+{
+    return (ppmi_differential){
+        .is_known = true,
+        .direction = ray->ray.direction,
+        .position_dx = vec3_scale(ray->position_dx, side),
+        .position_dy = vec3_scale(ray->position_dy, side),
+        .direction_dx = vec3_scale(ray->direction_dx, side),
+        .direction_dy = vec3_scale(ray->direction_dy, side),
+    };
+}
+
 ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
                                        uint32_t y, uint64_t pass)
 {
@@ -33,6 +55,9 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
     if (job->options->shutter_close > job->options->shutter_open) {
         walker->time = (float)ppmi_sobol1((uint32_t)pass, TIME_SET, seed);
         result.ray.time = walker->time;
+    }
+    if (job->world.has_textures) {
+        walker->differential = differential_of(&result, filtered_side(pass));
     }
     return result;
 }

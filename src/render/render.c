@@ -5,6 +5,7 @@
 
 #include "photon/eye.h"
 #include "render/integrator.h"
+#include "scene/mipmap.h"
 #include "transport/solid.h"
 
 struct ppm_render {
@@ -382,7 +383,8 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     render->options = resolved;
     render->photons_are_free = !options || options->photons_per_pass == 0;
     warn_about_the_lens(scene, options, &resolved);
-    status = start(render);
+    status = ppmi_scene_build_mipmaps(scene);
+    if (status == PPM_STATUS_OK) status = start(render);
     if (status != PPM_STATUS_OK) {
         ppm_render_destroy(render);
         return status;

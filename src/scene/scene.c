@@ -63,6 +63,8 @@ void ppm_scene_destroy(ppm_scene *scene)
     for (uint32_t i = 0; i < scene->image_count; i++) {
         ppmi_free(context, scene->images[i].u8);
         ppmi_free(context, scene->images[i].f32);
+        ppmi_free(context, scene->images[i].mips);
+        ppmi_free(context, scene->images[i].mip_pixels);
         ppmi_free(context, scene->images[i].name);
     }
     for (uint32_t i = 0; i < scene->material_count; i++) {

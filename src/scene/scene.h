@@ -16,12 +16,22 @@ extern "C" {
 
 /* Pixels of a texture. 8-bit values go through decode (256 entries), so that sRGB images stay one
  * byte a channel; alpha and data never do. */
+typedef struct ppmi_image_level {
+    uint32_t width, height;
+    const uint8_t *u8; /* or NULL */
+    const float *f32;  /* or NULL */
+} ppmi_image_level;
+
 typedef struct ppmi_image {
     char *name;
     uint32_t width, height, channels;
     uint8_t *u8;  /* or NULL */
     float *f32;   /* or NULL; linear */
     bool is_srgb; /* u8 holds sRGB-encoded colour */
+
+    uint32_t mip_count;     /* levels beyond the image itself; scene/mipmap.h */
+    ppmi_image_level *mips; /* NULL: not built */
+    void *mip_pixels;       /* of all of them */
 } ppmi_image;
 
 /* What fills the space between surfaces, homogeneous; all 0: nothing. */

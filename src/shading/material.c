@@ -1,13 +1,10 @@
 /* Material evaluation: factors times textures. */
 #include "shading/material.h"
 
-#include "shading/texture.h"
-
 static ppmi_texel lookup(const ppm_scene *scene, const ppmi_surface *surface,
                          const ppm_texture *texture)
 {
-    if (texture->image == 0) return (ppmi_texel){1.0f, 1.0f, 1.0f, 1.0f};
-    return ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
+    return ppmi_surface_texture(scene, surface, texture);
 }
 
 static float unit(float x)

@@ -8,8 +8,6 @@
 
 #include <float.h>
 
-#include "shading/texture.h"
-
 /* Roundings in: object to world (4 products and sums), interpolation, Embree's own edge tests. */
 static const float error_ulps = 24.0f;
 
@@ -42,6 +40,7 @@ void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_sur
     surface->triangle = hit->triangle;
     surface->u = hit->u;
     surface->v = hit->v;
+    surface->uv_dx = surface->uv_dy = (ppmi_vec2){0.0f, 0.0f};
 
     const ppmi_instance *instance = surface->instance;
     const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)hit->triangle;
@@ -60,6 +59,68 @@ void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_sur
     surface->ns = shading_normal(surface, triangle);
 }
 
+/* ---- footprint ------------------------------------------------------------------------------- */
+
+/* The triangle's edges from its first vertex, world space. */
+static void world_edges(const ppmi_surface *surface, ppmi_vec3 *ab, ppmi_vec3 *ac)
+{
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const float *positions = surface->primitive->positions;
+    const ppmi_vec3 a = vec3_load(positions + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 b = vec3_load(positions + 3 * (size_t)triangle[1]);
+    const ppmi_vec3 c = vec3_load(positions + 3 * (size_t)triangle[2]);
+    const ppmi_transform *to_world = &surface->instance->to_world;
+    *ab = ppmi_transform_vector(to_world, vec3_sub(b, a));
+    *ac = ppmi_transform_vector(to_world, vec3_sub(c, a));
+}
+
+/* p = u ab + v ac in the plane: u is the volume of (p, ac, n) by that of (ab, ac, n), n = ab x ac;
+ * v likewise. */
+void ppmi_surface_set_footprint(ppmi_surface *surface, ppmi_vec3 position_dx, ppmi_vec3 position_dy)
+{
+    ppmi_vec3 ab, ac;
+    world_edges(surface, &ab, &ac);
+    const ppmi_vec3 n = vec3_cross(ab, ac);
+    const float scale = 1.0f / vec3_length2(n);
+    if (!isfinite(scale)) return;
+    const ppmi_vec3 to_u = vec3_scale(vec3_cross(ac, n), scale);
+    const ppmi_vec3 to_v = vec3_scale(vec3_cross(n, ab), scale);
+    surface->uv_dx = (ppmi_vec2){vec3_dot(position_dx, to_u), vec3_dot(position_dx, to_v)};
+    surface->uv_dy = (ppmi_vec2){vec3_dot(position_dy, to_u), vec3_dot(position_dy, to_v)};
+}
+
+/* The normal's direction changes with its part across itself. */
+static ppmi_vec3 unit_change(ppmi_vec3 n, ppmi_vec3 ab, ppmi_vec3 ac, float inverse_length,
+                             ppmi_vec2 step)
+{
+    const ppmi_vec3 change = vec3_mad(vec3_scale(ab, step.x), ac, step.y);
+    return vec3_scale(vec3_mad(change, n, -vec3_dot(change, n)), inverse_length);
+}
+
+void ppmi_surface_normal_derivatives(const ppmi_surface *surface, ppmi_vec3 n, ppmi_vec3 *out_n_dx,
+                                     ppmi_vec3 *out_n_dy)
+{
+    *out_n_dx = *out_n_dy = vec3_splat(0.0f);
+    const float *normals = surface->primitive->normals;
+    if (!normals) return;
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const ppmi_transform *to_world = &surface->instance->normals;
+    const ppmi_vec3 local_a = vec3_load(normals + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 local_b = vec3_load(normals + 3 * (size_t)triangle[1]);
+    const ppmi_vec3 local_c = vec3_load(normals + 3 * (size_t)triangle[2]);
+    const ppmi_vec3 a = ppmi_transform_vector(to_world, local_a);
+    const ppmi_vec3 ab = ppmi_transform_vector(to_world, vec3_sub(local_b, local_a));
+    const ppmi_vec3 ac = ppmi_transform_vector(to_world, vec3_sub(local_c, local_a));
+    const ppmi_vec3 sum = vec3_mad(vec3_mad(a, ab, surface->u), ac, surface->v);
+    const float length = vec3_length(sum);
+    if (!(length > 1e-6f)) return;
+    const float scale = (vec3_dot(sum, n) < 0.0f ? -1.0f : 1.0f) / length;
+    *out_n_dx = unit_change(n, ab, ac, scale, surface->uv_dx);
+    *out_n_dy = unit_change(n, ab, ac, scale, surface->uv_dy);
+}
+
+/* ---- textures -------------------------------------------------------------------------------- */
+
 ppmi_vec2 ppmi_surface_uv(const ppmi_surface *surface, uint32_t set)
 {
     const float *uvs = surface->primitive->uvs[set];
@@ -70,6 +131,38 @@ ppmi_vec2 ppmi_surface_uv(const ppmi_surface *surface, uint32_t set)
     const float *c = uvs + 2 * (size_t)triangle[2];
     const float u = surface->u, v = surface->v, w = 1.0f - u - v;
     return (ppmi_vec2){w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
+}
+
+static const ppmi_texel white = {1.0f, 1.0f, 1.0f, 1.0f};
+
+ppmi_texel ppmi_surface_texture_finest(const ppm_scene *scene, const ppmi_surface *surface,
+                                       const ppm_texture *texture)
+{
+    if (texture->image == 0) return white;
+    return ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
+}
+
+static ppmi_vec2 combine(const float *a, const float *b, const float *c, ppmi_vec2 step)
+{
+    return (ppmi_vec2){(b[0] - a[0]) * step.x + (c[0] - a[0]) * step.y,
+                       (b[1] - a[1]) * step.x + (c[1] - a[1]) * step.y};
+}
+
+ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi_surface *surface,
+                                const ppm_texture *texture)
+{
+    if (texture->image == 0) return white;
+    const ppmi_vec2 uv = ppmi_surface_uv(surface, texture->uv_set);
+    const ppmi_vec2 dx = surface->uv_dx, dy = surface->uv_dy;
+    const float *uvs = surface->primitive->uvs[texture->uv_set];
+    if (!uvs || (dx.x == 0.0f && dx.y == 0.0f && dy.x == 0.0f && dy.y == 0.0f)) {
+        return ppmi_texture_lookup(scene, texture, uv);
+    }
+    const uint32_t *triangle = surface->primitive->indices + 3 * (size_t)surface->triangle;
+    const float *a = uvs + 2 * (size_t)triangle[0];
+    const float *b = uvs + 2 * (size_t)triangle[1];
+    const float *c = uvs + 2 * (size_t)triangle[2];
+    return ppmi_texture_filtered(scene, texture, uv, combine(a, b, c, dx), combine(a, b, c, dy));
 }
 
 void ppmi_surface_vertex_color(const ppmi_surface *surface, float out_rgba[4])
@@ -145,10 +238,7 @@ float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface)
     float rgba[4];
     ppmi_surface_vertex_color(surface, rgba);
     float alpha = desc->base_color[3] * rgba[3];
-    const ppm_texture *texture = &desc->base_color_texture;
-    if (texture->image > 0) {
-        alpha *= ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set)).a;
-    }
+    alpha *= ppmi_surface_texture_finest(scene, surface, &desc->base_color_texture).a;
     if (desc->alpha_mode == PPM_ALPHA_MASK) return alpha >= desc->alpha_cutoff ? 1.0f : 0.0f;
     return ppmi_clampf(alpha, 0.0f, 1.0f);
 }
@@ -161,8 +251,7 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
     ppmi_vec3 radiance = vec3_load(material->desc.emission);
     const ppm_texture *texture = &material->desc.emission_texture;
     if (texture->image > 0) {
-        const ppmi_texel texel =
-            ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
+        const ppmi_texel texel = ppmi_surface_texture(scene, surface, texture);
         radiance = vec3_mul(radiance, vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f),
                                            ppmi_max(texel.b, 0.0f)));
     }

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "math/sampling.h"
 #include "scene/scene.h"
+#include "shading/texture.h"
 
 typedef struct ppmi_surface {
     ppmi_vec3 position;
@@ -16,12 +17,33 @@ typedef struct ppmi_surface {
     const ppmi_primitive *primitive;
     const ppmi_material *material;
     uint32_t triangle;
+    /* Change of u and v by one step in x and in y of the picture; 0: textures are looked up at
+     * their finest. */
+    ppmi_vec2 uv_dx, uv_dy;
 } ppmi_surface;
 
 void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_surface *out_surface);
 
 /* Texture coordinates of a set; (0, 0) where the mesh has none. */
 ppmi_vec2 ppmi_surface_uv(const ppmi_surface *surface, uint32_t set);
+
+/* Tells the surface what it stands for in the picture: how its position changes, in its plane, by
+ * one step in x and in y (world space). */
+void ppmi_surface_set_footprint(ppmi_surface *surface, ppmi_vec3 position_dx,
+                                ppmi_vec3 position_dy);
+
+/* Change of the unit shading normal by the same steps, for n on either side; 0 where the mesh has
+ * no normals. */
+void ppmi_surface_normal_derivatives(const ppmi_surface *surface, ppmi_vec3 n, ppmi_vec3 *out_n_dx,
+                                     ppmi_vec3 *out_n_dy);
+
+/* A texture at the surface, filtered over its footprint; white where texture->image is 0. */
+ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi_surface *surface,
+                                const ppm_texture *texture);
+
+/* The same without filter. */
+ppmi_texel ppmi_surface_texture_finest(const ppm_scene *scene, const ppmi_surface *surface,
+                                       const ppm_texture *texture);
 
 /* Vertex colour and alpha; all 1 where the mesh has none. */
 void ppmi_surface_vertex_color(const ppmi_surface *surface, float out_rgba[4]);

@@ -13,4 +13,10 @@ typedef struct ppmi_texel {
  * the grey in r, g and b. texture->image must not be 0. */
 ppmi_texel ppmi_texture_lookup(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv);
 
+/* The mean around uv over the parallelogram of two steps in uv (before the texture's transform),
+ * from the image's mipmaps; without them, and where the parallelogram is no larger than a texel,
+ * the look-up above. */
+ppmi_texel ppmi_texture_filtered(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv,
+                                 ppmi_vec2 uv_dx, ppmi_vec2 uv_dy);
+
 #endif

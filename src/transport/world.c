@@ -22,6 +22,8 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
         world->has_alpha = world->has_alpha || material->has_alpha;
         world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
     }
+    for (uint32_t i = 0; i < scene->image_count; i++)
+        world->has_textures = world->has_textures || scene->images[i].mip_count > 0;
     ppmi_vec3 low, high;
     world->has_fog = !ppmi_medium_is_empty(&scene->fog) && ppmi_scene_bounds(scene, &low, &high);
     if (!world->has_fog) return;
@@ -120,8 +122,8 @@ static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, 
     return false;
 }
 
-static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
-                         scatter_choice *choice)
+static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
+                           ppmi_vertex *vertex, scatter_choice *choice)
 {
     vertex->medium = NULL;
     vertex->distance = 0.0f;
@@ -151,6 +153,18 @@ static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, 
     }
     vertex->transmittance = vec3_splat(0.0f);
     return PPMI_ESCAPED;
+}
+
+static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
+                         scatter_choice *choice)
+{
+    const ppmi_arrival arrival = follow(walker, ray, kind, vertex, choice);
+    if (arrival == PPMI_AT_SURFACE) {
+        ppmi_differential_meet(&walker->differential, vertex->distance, &vertex->surface);
+    } else if (arrival == PPMI_IN_MEDIUM) {
+        ppmi_differential_advance(&walker->differential, vertex->distance);
+    }
+    return arrival;
 }
 
 ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
@@ -285,11 +299,29 @@ void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_v
     ppmi_bsdf_make(walker->world->albedo, &vertex->surface, &point, vec3_neg(direction), out_bsdf);
 }
 
+/* How neighbouring rays leave. */
+static void leave_with_neighbours(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                  const ppmi_bsdf_sample *sample)
+{
+    ppmi_differential *differential = &walker->differential;
+    if (!differential->is_known) return;
+    if (!sample->is_delta) {
+        ppmi_differential_scatter(differential, sample->wi, sample->pdf);
+    } else if (!sample->is_transmission) {
+        ppmi_differential_reflect(differential, &vertex->surface, sample->wi);
+    } else if (vertex->surface.material->is_solid_glass) {
+        ppmi_differential_refract(differential, &vertex->surface, vertex->relative_index,
+                                  sample->wi);
+    }
+    differential->direction = sample->wi;
+}
+
 ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
                          const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput)
 {
     ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample->wi);
     ray.time = walker->time;
+    leave_with_neighbours(walker, vertex, sample);
     if (vertex->medium || !vertex->surface.material->is_solid_glass) return ray;
     if (sample->is_transmission) walker->interior = vertex->behind;
     if (vertex->drawn_wavelength > 0.0f && (sample->is_transmission || vertex->splits_always)) {

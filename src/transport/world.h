@@ -6,6 +6,7 @@
 #include "light/lights.h"
 #include "math/sampler.h"
 #include "shading/bsdf.h"
+#include "shading/footprint.h"
 #include "shading/spectrum.h"
 #include "transport/contact.h"
 #include "transport/interior.h"
@@ -18,7 +19,8 @@ typedef struct ppmi_world {
     const ppmi_albedo_table *albedo;
     const ppmi_spectrum *spectrum;
     const ppmi_contacts *contacts;
-    bool has_alpha; /* some material lets rays pass */
+    bool has_alpha;    /* some material lets rays pass */
+    bool has_textures; /* some image has mipmaps: footprints matter */
     bool has_fog;
     bool has_scattering;  /* some medium scatters */
     ppmi_vec3 fog_center; /* the ball that the fog fills */
@@ -45,9 +47,10 @@ typedef struct ppmi_walker {
     uint32_t used;         /* of the current set */
     ppmi_sample4 sample;
 
-    ppmi_interior interior; /* where the path is now */
-    float wavelength_nm;    /* of a path that dispersion has split; 0: all of them */
-    float time;             /* within the shutter, 0 .. 1 */
+    ppmi_interior interior;         /* where the path is now */
+    float wavelength_nm;            /* of a path that dispersion has split; 0: all of them */
+    float time;                     /* within the shutter, 0 .. 1 */
+    ppmi_differential differential; /* of the path's last ray; unknown for photons */
 } ppmi_walker;
 
 /* Starts a path, outside of all solids: index counts paths of the stream, stratified_index those
@@ -65,6 +68,7 @@ static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t
     walker->interior.count = 0;
     walker->wavelength_nm = 0.0f;
     walker->time = 0.0f;
+    walker->differential.is_known = false;
 }
 
 static inline uint32_t ppmi_walker_u32(ppmi_walker *walker)

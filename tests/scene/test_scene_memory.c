@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "ppm/render.h"
+#include "scene/mipmap.h"
 #include "support/scenes.h"
 
 static ppm_status add_material(ppm_scene *scene, float emission, ppm_image_id image,
@@ -155,6 +156,7 @@ static void creating_a_render_bears_any_failed_allocation(void **state)
         ppm_scene *scene = NULL;
         assert_int_equal(ppm_scene_create(context, NULL, &scene), PPM_STATUS_OK);
         assert_int_equal(fill(scene), PPM_STATUS_OK);
+        assert_int_equal(ppmi_scene_build_mipmaps(scene), PPM_STATUS_OK); /* the scene keeps them */
         const size_t live = ppmi_alloc_live(context);
         const ppm_render_options options = small(integrator);
         ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
