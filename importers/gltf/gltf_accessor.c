@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_reader.h"
 
 /* An accessor without a buffer view is all zeros and costs no bytes in the file; so a small file
@@ -76,6 +77,14 @@ static ppm_status find_elements(ppmi_gltf_reader *reader, int32_t view, size_t o
 static ppm_status find_base(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
                             const char *place, elements *out)
 {
+    const size_t size = element_size(accessor);
+    if (accessor->buffer_view < 0) {
+        const int32_t index = (int32_t)(accessor - reader->document->accessors);
+        const ppm_status status =
+            ppmi_gltf_decoded_accessor(reader, index, place, &out->bytes, &out->count);
+        out->stride = size;
+        if (status != PPM_STATUS_OK || out->bytes) return status;
+    }
     if (accessor->buffer_view < 0) {
         const size_t vectors = accessor->column_count > 1 ? 4 : 1; /* of four values at most */
         if (accessor->count > (MAX_ZERO_ELEMENTS - reader->zero_elements) / vectors) {
@@ -91,7 +100,7 @@ static ppm_status find_base(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *
         stride = reader->document->buffer_views[accessor->buffer_view].byte_stride;
     }
     return find_elements(reader, accessor->buffer_view, accessor->byte_offset, accessor->count,
-                         element_size(accessor), stride, place, out);
+                         size, stride, place, out);
 }
 
 static uint32_t load_unsigned(const unsigned char *p, int32_t type)

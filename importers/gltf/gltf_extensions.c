@@ -7,18 +7,11 @@
 enum { MAX_LISTED = 64 }; /* of the used ones */
 
 static const char *const supported[] = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
-    "KHR_lights_punctual",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",         "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_draco_mesh_compression",      "KHR_lights_punctual",     "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",       "KHR_materials_specular",
+    "KHR_materials_transmission",      "KHR_materials_unlit",     "KHR_materials_volume",
+    "KHR_mesh_quantization",           "KHR_meshopt_compression", "KHR_texture_transform",
 };
 
 static bool is_supported(const char *name)
@@ -32,9 +25,6 @@ static bool is_supported(const char *name)
 /* What to do about one that people meet. */
 static const char *advice(const char *name)
 {
-    if (strcmp(name, "KHR_draco_mesh_compression") == 0 || strstr(name, "meshopt_compression")) {
-        return ": the geometry is compressed; write the file without mesh compression";
-    }
     if (strcmp(name, "KHR_texture_basisu") == 0) {
         return ": the textures are KTX2 files; write them as PNG, JPEG or WebP";
     }

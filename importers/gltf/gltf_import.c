@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_extensions.h"
 #include "gltf/gltf_reader.h"
 
@@ -143,6 +144,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->materials);
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
+    ppmi_gltf_decoded_deinit(r);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
@@ -101,10 +102,15 @@ static ppm_status read_triangles(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 {
     uint32_t *list = NULL;
     size_t count = 0;
+    const bool is_draco = primitive->is_draco && primitive->indices >= 0 &&
+                          (size_t)primitive->indices < reader->document->accessor_count &&
+                          reader->document->accessors[primitive->indices].buffer_view < 0;
+    const int32_t mode =
+        is_draco ? PPMI_GLTF_TRIANGLES : primitive->mode; /* strips come as lists */
     ppm_status status = read_index_list(reader, primitive, place, g->vertex_count, &list, &count);
     if (status == PPM_STATUS_OK) {
-        if (primitive->mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
-        status = ppmi_gltf_triangles(reader->context, primitive->mode, list, count, &g->indices,
+        if (mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
+        status = ppmi_gltf_triangles(reader->context, mode, list, count, &g->indices,
                                      &g->triangle_count);
         if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
     }
@@ -113,15 +119,6 @@ static ppm_status read_triangles(ppmi_gltf_reader *reader, const ppmi_gltf_primi
         return ppmi_gltf_invalid(reader, place, "more than 2^32 triangles");
     }
     return status;
-}
-
-/* Draco's data may stand beside ordinary ones or instead of them. Then the accessors have no bytes,
- * and would be read as zeros. */
-static bool is_draco_only(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
-                          int32_t position)
-{
-    return primitive->is_draco && (size_t)position < reader->document->accessor_count &&
-           reader->document->accessors[position].buffer_view < 0;
 }
 
 /* Fills g; g->triangle_count stays 0 for what cannot be drawn. */
@@ -137,12 +134,6 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     if (position < 0) {
         reader->tally.no_positions++;
         return PPM_STATUS_OK;
-    }
-    if (is_draco_only(reader, primitive, position)) {
-        return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
-                         "%s: %s: KHR_draco_mesh_compression is not supported: the geometry is "
-                         "compressed; write the file without mesh compression",
-                         reader->path, place);
     }
     if (primitive->has_targets) reader->tally.morph_targets++;
     ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
@@ -215,6 +206,7 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_
     if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);
     for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
         free_geometry(reader->context, &all[i]);
+        ppmi_gltf_decoded_release(reader, &mesh->primitives[i]);
     }
     ppmi_free(reader->context, all);
     ppmi_free(reader->context, descs);

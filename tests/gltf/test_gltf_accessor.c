@@ -406,20 +406,6 @@ static void points_and_lines_are_left_out_with_a_warning(void **state)
     }
 }
 
-static void compressed_geometry_without_a_fallback_is_unsupported(void **state)
-{
-    gltf_fixture *f = *state;
-    assert_gltf_status(f,
-                       gltf_import_primitive(f,
-                                             POSITION
-                                             ",'extensions':{'KHR_draco_mesh_compression':{"
-                                             "'bufferView':0,'attributes':{'POSITION':0}}}",
-                                             "{'componentType':5126,'count':3,'type':'VEC3'}",
-                                             "{'buffer':0,'byteLength':36}", triangle, 36),
-                       PPM_STATUS_INPUT_UNSUPPORTED);
-    assert_gltf_logged(f, 'E', "KHR_draco_mesh_compression");
-}
-
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -444,7 +430,6 @@ int main(void)
         TEST(fans_turn_about_their_first_vertex),
         TEST(an_incomplete_triangle_is_left_out_with_a_warning),
         TEST(points_and_lines_are_left_out_with_a_warning),
-        TEST(compressed_geometry_without_a_fallback_is_unsupported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

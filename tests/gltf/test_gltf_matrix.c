@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_reader.h"
 #include "gltf_fixture.h"
 
@@ -129,6 +130,7 @@ static void matrices_without_a_buffer_view_are_zeros_and_bounded(void **state)
     ppmi_free(f->context, values);
     o.accessor.count = (size_t)1 << 23; /* as vectors they would be allowed */
     assert_gltf_status(f, read(&o, &mat4, &values, &count), PPM_STATUS_INPUT_INVALID);
+    ppmi_gltf_decoded_deinit(&o.reader);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
