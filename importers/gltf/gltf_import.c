@@ -106,7 +106,12 @@ static void report(const ppmi_gltf_reader *r)
     const ppmi_gltf_tally *tally = &r->tally;
     report_light_units(r);
     report_glass(r);
-    report_count(r, tally->points_or_lines, "primitives of points or lines left out");
+    report_count(
+        r, tally->points_or_lines,
+        "primitives of points or lines: drawn as balls and round segments of 0.2 % of their "
+        "mesh's diagonal");
+    report_count(r, tally->unused_colors, "sets of vertex colours beyond COLOR_0: not used");
+    report_count(r, tally->unused_uvs, "sets of texture coordinates beyond TEXCOORD_7: not used");
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
     report_count(r, tally->skins, "skinned nodes: skins are not applied");
@@ -117,7 +122,7 @@ static void report(const ppmi_gltf_reader *r)
         ppmi_log(r->context, PPM_LOG_WARNING, "%s: nothing to render: %s", r->path,
                  r->outline.lists[PPMI_GLTF_MESHES].count == 0
                      ? "the file has no meshes"
-                     : "no node of the scene has a mesh with triangles");
+                     : "no node of the scene has a mesh with anything to draw");
     }
 }
 

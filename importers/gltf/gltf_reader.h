@@ -30,6 +30,7 @@ typedef struct ppmi_gltf_tally {
     size_t punctual_lights;
     size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
     size_t solid_glass, thin_glass;
+    size_t unused_colors, unused_uvs;
 } ppmi_gltf_tally;
 
 typedef struct ppmi_gltf_decoded ppmi_gltf_decoded; /* gltf_decoded.h */

@@ -26,7 +26,15 @@ enum {
 };
 
 /* mode of a primitive */
-enum { PPMI_GLTF_TRIANGLES = 4, PPMI_GLTF_TRIANGLE_STRIP = 5, PPMI_GLTF_TRIANGLE_FAN = 6 };
+enum {
+    PPMI_GLTF_POINTS = 0,
+    PPMI_GLTF_LINES = 1,
+    PPMI_GLTF_LINE_LOOP = 2,
+    PPMI_GLTF_LINE_STRIP = 3,
+    PPMI_GLTF_TRIANGLES = 4,
+    PPMI_GLTF_TRIANGLE_STRIP = 5,
+    PPMI_GLTF_TRIANGLE_FAN = 6
+};
 
 /* EXT_meshopt_compression or KHR_meshopt_compression of a buffer view. Sizes that are no sizes are
  * SIZE_MAX. */

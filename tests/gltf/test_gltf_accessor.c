@@ -394,18 +394,6 @@ static void an_incomplete_triangle_is_left_out_with_a_warning(void **state)
     assert_gltf_logged(f, 'W', "incomplete triangle");
 }
 
-static void points_and_lines_are_left_out_with_a_warning(void **state)
-{
-    gltf_fixture *f = *state;
-    for (int mode = 0; mode < 4; ++mode) {
-        import_mode(f, mode);
-        assert_int_equal(f->scene->mesh_count, 0);
-        assert_gltf_logged(f, 'W', "1 primitives of points or lines left out");
-        assert_gltf_logged(f, 'W', "nothing to render");
-        gltf_reset(f);
-    }
-}
-
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -429,7 +417,6 @@ int main(void)
         TEST(strips_keep_their_winding),
         TEST(fans_turn_about_their_first_vertex),
         TEST(an_incomplete_triangle_is_left_out_with_a_warning),
-        TEST(points_and_lines_are_left_out_with_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
