@@ -39,3 +39,21 @@ endif()
 
 find_package(tinyobjloader REQUIRED CONFIG)
 set(PPM_TINYOBJ_TARGET tinyobjloader::tinyobjloader) # single precision; a shared library on Debian
+
+# Compressed geometry of glTF. Draco may be left out.
+find_package(meshoptimizer 0.18 REQUIRED CONFIG)
+if(PPM_WITH_DRACO)
+    find_package(draco QUIET CONFIG)
+    if(NOT TARGET draco::draco)
+        message(FATAL_ERROR "Draco 1.5 is not here (Debian: libdraco-dev). Install it, or build "
+            "without KHR_draco_mesh_compression: -DPPM_WITH_DRACO=OFF")
+    endif()
+    # Debian's Draco has a tinygltf of its own inside, of another version, and shows its symbols: the
+    # loader takes those of the library that is linked first, which must be tinygltf. The static one
+    # is no way out: libtinygltf.so has an open symbol that makes the linker take Draco's copy.
+    set(PPM_DRACO_TARGET ${PPM_TINYGLTF_TARGET} draco::draco)
+    set(PPM_DRACO_SOURCE gltf_draco_shim.cpp)
+else()
+    set(PPM_DRACO_TARGET "")
+    set(PPM_DRACO_SOURCE gltf_draco_none.c)
+endif()

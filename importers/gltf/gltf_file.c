@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_reader.h"
 #include "gltf/gltf_uri.h"
 
@@ -202,6 +203,24 @@ static ppm_status load_buffer(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
     return PPM_STATUS_OK;
 }
 
+ppm_status ppmi_gltf_buffer_bytes(ppmi_gltf_reader *reader, int32_t buffer, size_t byte_offset,
+                                  size_t byte_length, const char *place,
+                                  const unsigned char **out_bytes)
+{
+    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFERS, buffer, place);
+    if (status != PPM_STATUS_OK) return status;
+    const size_t length = reader->outline.buffers.items[buffer].byte_length;
+    if (byte_offset > length || byte_length > length - byte_offset) {
+        return ppmi_gltf_invalid(reader, place,
+                                 "%zu bytes from %zu do not fit in %zu of buffers[%d]", byte_length,
+                                 byte_offset, length, (int)buffer);
+    }
+    ppmi_gltf_bytes *loaded = &reader->buffers[buffer];
+    if (!loaded->data) status = load_buffer(reader, buffer, loaded);
+    if (status == PPM_STATUS_OK) *out_bytes = loaded->data + byte_offset;
+    return status;
+}
+
 ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
                                 const unsigned char **out_bytes, size_t *out_count)
 {
@@ -209,19 +228,13 @@ ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const ch
     ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFER_VIEWS, view, place);
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
-    ppmi_gltf_place(inner, "bufferViews[%d]", (int)view);
-    status = ppmi_gltf_require(reader, PPMI_GLTF_BUFFERS, item->buffer, inner);
-    if (status != PPM_STATUS_OK) return status;
-    const size_t length = reader->outline.buffers.items[item->buffer].byte_length;
-    if (item->byte_offset > length || item->byte_length > length - item->byte_offset) {
-        return ppmi_gltf_invalid(reader, inner,
-                                 "%zu bytes from %zu do not fit in %zu of buffers[%d]",
-                                 item->byte_length, item->byte_offset, length, (int)item->buffer);
+    if (item->meshopt.is_given) {
+        status = ppmi_gltf_decoded_view(reader, view, out_bytes, out_count);
+        if (status != PPM_STATUS_OK || *out_bytes) return status;
     }
-    ppmi_gltf_bytes *buffer = &reader->buffers[item->buffer];
-    if (!buffer->data) status = load_buffer(reader, item->buffer, buffer);
-    if (status != PPM_STATUS_OK) return status;
-    *out_bytes = buffer->data + item->byte_offset;
-    *out_count = item->byte_length;
-    return PPM_STATUS_OK;
+    ppmi_gltf_place(inner, "bufferViews[%d]", (int)view);
+    status = ppmi_gltf_buffer_bytes(reader, item->buffer, item->byte_offset, item->byte_length,
+                                    inner, out_bytes);
+    if (status == PPM_STATUS_OK) *out_count = item->byte_length;
+    return status;
 }

@@ -6,10 +6,13 @@
 
 /* All arrays are owned until the scene has copied them. */
 typedef struct ppmi_gltf_geometry {
-    size_t vertex_count, triangle_count;
+    int32_t kind;         /* PPM_PRIMITIVE_ */
+    size_t element_count; /* triangles, points or segments; 0: nothing to draw */
+    size_t vertex_count, index_count;
     float *positions, *normals, *tangents, *colors;
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;
+    uint32_t *sources; /* of each vertex: its place in the accessors; NULL: the same */
     ppm_material_id material;
 } ppmi_gltf_geometry;
 
@@ -18,7 +21,20 @@ typedef struct ppmi_gltf_geometry {
 ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,
                                size_t count, uint32_t **out_indices, size_t *out_triangles);
 
-/* Drops the vertices that no triangle uses: primitives often share one long vertex list, each with
+/* The points or segments (pairs of indices) of count indices in a mode (PPMI_GLTF_POINTS to
+ * _LINE_STRIP), in the same way. */
+ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const uint32_t *indices,
+                                      size_t count, uint32_t **out_indices, size_t *out_elements);
+
+/* Points and lines have no size in glTF. This share of the diagonal of their mesh's box is the
+ * radius that they get; a mesh that is one point has no diagonal, and gets a millimetre. */
+#define PPMI_GLTF_RADIUS_SHARE 0.002f
+#define PPMI_GLTF_RADIUS_OF_A_POINT_M 0.001f
+
+/* That radius, from the vertices of all primitives of a mesh. */
+float ppmi_gltf_line_radius(const ppmi_gltf_geometry *primitives, size_t count);
+
+/* Drops the vertices that no element uses: primitives often share one long vertex list, each with
  * its own part of it. False when memory is out. */
 bool ppmi_gltf_compact(ppm_context *context, ppmi_gltf_geometry *geometry);
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_extensions.h"
 #include "gltf/gltf_reader.h"
 
@@ -112,7 +113,7 @@ static void report(const ppmi_gltf_reader *r)
         ppmi_log(r->context, PPM_LOG_WARNING, "%s: nothing to render: %s", r->path,
                  r->outline.lists[PPMI_GLTF_MESHES].count == 0
                      ? "the file has no meshes"
-                     : "no node of the scene has a mesh with triangles");
+                     : "no node of the scene has a mesh with anything to draw");
     }
 }
 
@@ -146,6 +147,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->empty_meshes);
     ppmi_gltf_report_deinit(r->context, &r->report);
     ppmi_free(r->context, r->xmp);
+    ppmi_gltf_decoded_deinit(r);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/gltf_decoded.h"
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
@@ -21,6 +22,7 @@ static void free_geometry(ppm_context *context, ppmi_gltf_geometry *g)
         ppmi_free(context, g->uvs[i]);
     }
     ppmi_free(context, g->indices);
+    ppmi_free(context, g->sources);
 }
 
 static int32_t find_attribute(const ppmi_gltf_primitive *primitive, const char *name)
@@ -96,50 +98,58 @@ static ppm_status read_index_list(ppmi_gltf_reader *reader, const ppmi_gltf_prim
     return PPM_STATUS_OK;
 }
 
-static ppm_status read_triangles(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
-                                 const char *place, ppmi_gltf_geometry *g)
+/* Strips in a Draco stream come as lists. */
+static int32_t mode_of(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive)
+{
+    const bool is_draco = primitive->is_draco && primitive->indices >= 0 &&
+                          (size_t)primitive->indices < reader->document->accessor_count &&
+                          reader->document->accessors[primitive->indices].buffer_view < 0;
+    return is_draco ? PPMI_GLTF_TRIANGLES : primitive->mode;
+}
+
+static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, const uint32_t *list,
+                                size_t count, ppmi_gltf_geometry *g)
+{
+    if (mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
+    if (mode >= PPMI_GLTF_TRIANGLES) {
+        const ppm_status status =
+            ppmi_gltf_triangles(reader->context, mode, list, count, &g->indices, &g->element_count);
+        g->index_count = 3 * g->element_count;
+        return status;
+    }
+    g->kind = mode == PPMI_GLTF_POINTS ? PPM_PRIMITIVE_POINTS : PPM_PRIMITIVE_LINES;
+    const ppm_status status = ppmi_gltf_points_and_lines(reader->context, mode, list, count,
+                                                         &g->indices, &g->element_count);
+    g->index_count = (mode == PPMI_GLTF_POINTS ? 1 : 2) * g->element_count;
+    return status;
+}
+
+static ppm_status read_elements(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                const char *place, ppmi_gltf_geometry *g)
 {
     uint32_t *list = NULL;
     size_t count = 0;
     ppm_status status = read_index_list(reader, primitive, place, g->vertex_count, &list, &count);
     if (status == PPM_STATUS_OK) {
-        if (primitive->mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
-        status = ppmi_gltf_triangles(reader->context, primitive->mode, list, count, &g->indices,
-                                     &g->triangle_count);
+        status = make_elements(reader, mode_of(reader, primitive), list, count, g);
         if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
     }
     ppmi_free(reader->context, list);
-    if (status == PPM_STATUS_OK && g->triangle_count > UINT32_MAX) {
+    if (status == PPM_STATUS_OK && g->element_count > UINT32_MAX) {
         return ppmi_gltf_invalid(reader, place, "more than 2^32 triangles");
     }
     return status;
 }
 
-/* Draco's data may stand beside ordinary ones or instead of them. Then the accessors have no bytes,
- * and would be read as zeros. */
-static bool is_draco_only(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
-                          int32_t position)
-{
-    return primitive->is_draco && (size_t)position < reader->document->accessor_count &&
-           reader->document->accessors[position].buffer_view < 0;
-}
-
-/* Fills g; g->triangle_count stays 0 for what cannot be drawn. */
+/* Fills g; g->element_count stays 0 for what cannot be drawn. */
 static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                  const char *place, ppmi_gltf_geometry *g)
 {
     char inner[PPMI_GLTF_PLACE];
     const int32_t position = find_attribute(primitive, "POSITION");
-    if (primitive->mode < PPMI_GLTF_TRIANGLES) return PPM_STATUS_OK;
     if (position < 0) {
         reader->tally.no_positions++;
         return PPM_STATUS_OK;
-    }
-    if (is_draco_only(reader, primitive, position)) {
-        return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
-                         "%s: %s: KHR_draco_mesh_compression is not supported: the geometry is "
-                         "compressed; write the file without mesh compression",
-                         reader->path, place);
     }
     ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
     ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
@@ -148,8 +158,8 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     if (g->vertex_count > UINT32_MAX) {
         return ppmi_gltf_invalid(reader, inner, "more than 2^32 vertices");
     }
-    status = read_triangles(reader, primitive, place, g);
-    if (status != PPM_STATUS_OK || g->triangle_count == 0) return status;
+    status = read_elements(reader, primitive, place, g);
+    if (status != PPM_STATUS_OK || g->element_count == 0) return status;
     status = read_attributes(reader, primitive, place, g);
     if (status != PPM_STATUS_OK) return status;
     if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
@@ -158,10 +168,14 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
                                   &g->material);
 }
 
-static void describe(const ppmi_gltf_geometry *g, ppm_primitive_desc *out)
+static void describe(const ppmi_gltf_geometry *g, float radius_m, ppm_primitive_desc *out)
 {
+    const bool is_triangles = g->kind == PPM_PRIMITIVE_TRIANGLES;
     *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertex_count,
-                                .triangle_count = (uint32_t)g->triangle_count,
+                                .triangle_count = is_triangles ? (uint32_t)g->element_count : 0,
+                                .kind = g->kind,
+                                .element_count = is_triangles ? 0 : (uint32_t)g->element_count,
+                                .radius_m = is_triangles ? 0.0f : radius_m,
                                 .positions = g->positions,
                                 .normals = g->normals,
                                 .tangents = g->tangents,
@@ -180,8 +194,9 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
 {
     char name[PPMI_GLTF_PLACE];
     uint32_t count = 0;
+    const float radius_m = ppmi_gltf_line_radius(all, mesh->primitive_count);
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
-        if (all[i].triangle_count > 0) describe(&all[i], &descs[count++]);
+        if (all[i].element_count > 0) describe(&all[i], radius_m, &descs[count++]);
     }
     *out_id = 0;
     if (count == 0) return PPM_STATUS_OK;
@@ -212,6 +227,7 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_
     if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);
     for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
         free_geometry(reader->context, &all[i]);
+        ppmi_gltf_decoded_release(reader, &mesh->primitives[i]);
     }
     ppmi_free(reader->context, all);
     ppmi_free(reader->context, descs);

@@ -34,6 +34,8 @@ typedef struct ppmi_gltf_tally {
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
 
+typedef struct ppmi_gltf_decoded ppmi_gltf_decoded; /* gltf_decoded.h */
+
 struct ppmi_gltf_reader {
     ppm_context *context;
     ppm_scene *scene;
@@ -51,6 +53,7 @@ struct ppmi_gltf_reader {
     const ppmi_gltf_document *document;
 
     ppmi_gltf_bytes *buffers;         /* one per buffer */
+    ppmi_gltf_decoded *decoded;       /* what was compressed; NULL: nothing yet */
     ppmi_gltf_image_use *images;      /* two per image: colour, data */
     ppm_material_id *materials;       /* one per material; 0: not added yet */
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
@@ -70,10 +73,15 @@ struct ppmi_gltf_reader {
 /* Reads reader->path and finds the JSON and the BIN chunk in it. */
 ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader);
 
-/* The bytes of a buffer view. place is the JSON path of the reference, for messages. The bytes stay
- * valid until the reader ends. */
+/* The bytes of a buffer view, decoded where they are compressed. place is the JSON path of the
+ * reference, for messages. The bytes stay valid until the reader ends. */
 ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
                                 const unsigned char **out_bytes, size_t *out_count);
+
+/* byte_length bytes of a buffer from byte_offset on, for as long. place names who asks. */
+ppm_status ppmi_gltf_buffer_bytes(ppmi_gltf_reader *reader, int32_t buffer, size_t byte_offset,
+                                  size_t byte_length, const char *place,
+                                  const unsigned char **out_bytes);
 
 /* A URI without JSON escapes. Data URIs are long and have none, as a rule, so it is copied only if
  * need be: *out_owned is then the caller's to free. NULL when memory is out. */
@@ -113,8 +121,9 @@ typedef struct ppmi_gltf_format {
     bool integers_are_normalized;            /* even where the accessor does not say so */
 } ppmi_gltf_format;
 
-/* Reads an accessor as floats, count * format->out_components of them. *out_values is the caller's
- * to free, NULL on failure. */
+/* Reads an accessor as floats, count * format->out_components of them; matrices, where a format
+ * asks for 9 or 16 components, column by column and tightly packed. *out_values is the caller's to
+ * free, NULL on failure. */
 ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
                                  const ppmi_gltf_format *format, float **out_values,
                                  size_t *out_count);

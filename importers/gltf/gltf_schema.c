@@ -56,11 +56,29 @@ static const gltf_field buffer[] = {FIELD("uri", GLTF_STRING, .flags = GLTF_VITA
                                           .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
                                           .max = SIZE_MAX_EXACT),
                                     END};
+/* Sizes as NUMBER, as tinygltf reads integers beyond an int wrongly; the shim looks at them. */
+static const gltf_field meshopt[] = {
+    INDEX("buffer", GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("byteOffset", GLTF_NUMBER, .flags = GLTF_VITAL),
+    FIELD("byteLength", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("byteStride", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1, .max = 256),
+    FIELD("count", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("mode", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED,
+          .choices = " ATTRIBUTES TRIANGLES INDICES "),
+    FIELD("filter", GLTF_STRING, .flags = GLTF_VITAL,
+          .choices = " NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR "),
+    END};
+static const gltf_field buffer_view_extensions[] = {
+    VITAL_OBJECT("EXT_meshopt_compression", meshopt, 0),
+    VITAL_OBJECT("KHR_meshopt_compression", meshopt, 0), END};
 static const gltf_field buffer_view[] = {
-    INDEX("buffer", GLTF_VITAL | GLTF_REQUIRED), SIZE("byteOffset", GLTF_VITAL),
+    INDEX("buffer", GLTF_VITAL | GLTF_REQUIRED),
+    SIZE("byteOffset", GLTF_VITAL),
     FIELD("byteLength", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
           .max = SIZE_MAX_EXACT),
-    FIELD("byteStride", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 252, .step = 4), END};
+    FIELD("byteStride", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 252, .step = 4),
+    OBJECT("extensions", buffer_view_extensions),
+    END};
 
 /* tinygltf refuses indices whose accessor has no buffer view or does not exist. Under the key
  * "extras" it hands the number on as it is; the shim takes it from there. */
@@ -69,7 +87,11 @@ static const gltf_field variant_mapping[] = {
     FIELD("variants", GLTF_INTEGERS, .flags = GLTF_REQUIRED, .max = INDEX_MAX), END};
 static const gltf_field primitive_variants[] = {
     FIELD("mappings", GLTF_OBJECTS, .flags = GLTF_REQUIRED, .fields = variant_mapping), END};
+static const gltf_field draco[] = {
+    INDEX("bufferView", GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field primitive_extensions[] = {
+    VITAL_OBJECT("KHR_draco_mesh_compression", draco, 0),
     OBJECT("KHR_materials_variants", primitive_variants), END};
 static const gltf_field primitive[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED),

@@ -7,6 +7,7 @@
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <exception>
 #include <map>
@@ -38,7 +39,8 @@ struct Document : ppmi_gltf_document {
     // deques: what is in them stays where it is
     std::deque<std::vector<ppmi_gltf_attribute>> attribute_lists;
     std::deque<std::vector<ppmi_gltf_primitive>> primitive_lists;
-    std::deque<std::map<std::string, int>> instance_maps;
+    std::deque<std::map<std::string, int>> instance_maps, draco_maps;
+    std::deque<std::string> meshopt_words;
     std::deque<std::vector<ppmi_gltf_mapping>> mapping_lists;
     std::deque<std::vector<int32_t>> variant_lists;
     std::deque<std::string> variant_strings;
@@ -65,6 +67,17 @@ double number_or(const Value &object, const char *key, double otherwise)
 {
     const Value &value = member(object, key);
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+// A size in bytes, up to 2^53; SIZE_MAX for a number that is none.
+size_t size_or(const Value &object, const char *key, size_t otherwise)
+{
+    const Value &value = member(object, key);
+    if (!value.IsNumber()) return otherwise;
+    const double number = value.IsInt() ? value.GetNumberAsInt() : value.GetNumberAsDouble();
+    const bool is_size =
+        number >= 0.0 && number <= 9007199254740992.0 && number == std::floor(number);
+    return is_size ? static_cast<size_t>(number) : SIZE_MAX;
 }
 
 int32_t index_or(const Value &object, const char *key, int32_t otherwise)
@@ -250,20 +263,28 @@ ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
 
 // ---- geometry -----------------------------------------------------------------------------------
 
-uint32_t component_count(int type)
+// Sets components and columns; both are 0 for a type that does not exist.
+void copy_shape(int type, ppmi_gltf_accessor *out)
 {
     switch (type) {
     case TINYGLTF_TYPE_SCALAR:
-        return 1;
     case TINYGLTF_TYPE_VEC2:
-        return 2;
     case TINYGLTF_TYPE_VEC3:
-        return 3;
     case TINYGLTF_TYPE_VEC4:
-        return 4;
+    case TINYGLTF_TYPE_MAT2:
+    case TINYGLTF_TYPE_MAT3:
+    case TINYGLTF_TYPE_MAT4:
+        break;
     default:
-        return 0;
+        return;
     }
+    const bool is_matrix =
+        type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
+    out->component_count = static_cast<uint32_t>(tinygltf::GetNumComponentsInType(type));
+    out->column_count = !is_matrix                   ? 1
+                        : type == TINYGLTF_TYPE_MAT2 ? 2
+                        : type == TINYGLTF_TYPE_MAT3 ? 3
+                                                     : 4;
 }
 
 ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
@@ -272,7 +293,7 @@ ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
     out.buffer_view = from.bufferView;
     out.byte_offset = from.byteOffset;
     out.component_type = from.componentType;
-    out.component_count = component_count(from.type);
+    copy_shape(from.type, &out);
     out.normalized = from.normalized;
     out.count = from.count;
     if (from.sparse.isSparse) {
@@ -286,9 +307,38 @@ ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
     return out;
 }
 
-ppmi_gltf_buffer_view copy_buffer_view(const tinygltf::BufferView &from)
+const char *keep_word(Document *document, const Value &object, const char *key)
 {
-    return {from.buffer, from.byteOffset, from.byteLength, from.byteStride};
+    const Value &value = member(object, key);
+    if (!value.IsString()) return "";
+    document->meshopt_words.push_back(value.Get<std::string>());
+    return document->meshopt_words.back().c_str();
+}
+
+void copy_meshopt(Document *document, const tinygltf::ExtensionMap &map, ppmi_gltf_meshopt *out)
+{
+    const Value *from = &extension(map, "KHR_meshopt_compression");
+    if (!from->IsObject()) from = &extension(map, "EXT_meshopt_compression");
+    out->is_given = from->IsObject();
+    if (!out->is_given) return;
+    out->buffer = index_or(*from, "buffer", -1);
+    out->byte_offset = size_or(*from, "byteOffset", 0);
+    out->byte_length = size_or(*from, "byteLength", SIZE_MAX);
+    out->byte_stride = size_or(*from, "byteStride", SIZE_MAX);
+    out->count = size_or(*from, "count", SIZE_MAX);
+    out->mode = keep_word(document, *from, "mode");
+    out->filter = keep_word(document, *from, "filter");
+}
+
+ppmi_gltf_buffer_view copy_buffer_view(Document *document, const tinygltf::BufferView &from)
+{
+    ppmi_gltf_buffer_view out = {};
+    out.buffer = from.buffer;
+    out.byte_offset = from.byteOffset;
+    out.byte_length = from.byteLength;
+    out.byte_stride = from.byteStride;
+    copy_meshopt(document, from.extensions, &out.meshopt);
+    return out;
 }
 
 // The attributes of a map whose strings live on; sets count.
@@ -336,6 +386,28 @@ void copy_mappings(Document *document, const Value &from, ppmi_gltf_primitive *o
     out->mappings = document->mapping_lists.back().data();
 }
 
+// The object name -> integer "attributes" of an extension.
+const ppmi_gltf_attribute *copy_attribute_object(Document *document, const Value &attributes,
+                                                 std::deque<std::map<std::string, int>> *maps,
+                                                 uint32_t *count)
+{
+    std::map<std::string, int> map;
+    for (const std::string &key : attributes.Keys()) {
+        map[key] = index_or(attributes, key.c_str(), -1);
+    }
+    maps->push_back(std::move(map));
+    return copy_attributes(document, maps->back(), count);
+}
+
+void copy_draco(Document *document, const Value &from, ppmi_gltf_primitive *out)
+{
+    out->is_draco = from.IsObject();
+    out->draco_view = index_or(from, "bufferView", -1);
+    if (!out->is_draco) return;
+    out->draco_attributes = copy_attribute_object(
+        document, member(from, "attributes"), &document->draco_maps, &out->draco_attribute_count);
+}
+
 ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive &from)
 {
     ppmi_gltf_primitive out = {};
@@ -344,7 +416,7 @@ ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive
     out.material = from.material;
     out.attributes = copy_attributes(document, from.attributes, &out.attribute_count);
     out.has_targets = !from.targets.empty();
-    out.is_draco = from.extensions.count("KHR_draco_mesh_compression") > 0;
+    copy_draco(document, extension(from.extensions, "KHR_draco_mesh_compression"), &out);
     copy_mappings(document,
                   member(extension(from.extensions, "KHR_materials_variants"), "mappings"), &out);
     return out;
@@ -368,14 +440,9 @@ void copy_instancing(Document *document, const Value &from, ppmi_gltf_node *out)
 {
     out->is_instanced = from.IsObject();
     if (!out->is_instanced) return;
-    const Value &attributes = member(from, "attributes");
-    std::map<std::string, int> map;
-    for (const std::string &key : attributes.Keys()) {
-        map[key] = index_or(attributes, key.c_str(), -1);
-    }
-    document->instance_maps.push_back(std::move(map));
     out->instance_attributes =
-        copy_attributes(document, document->instance_maps.back(), &out->instance_attribute_count);
+        copy_attribute_object(document, member(from, "attributes"), &document->instance_maps,
+                              &out->instance_attribute_count);
 }
 
 ppmi_gltf_node copy_node(Document *document, const tinygltf::Node &from)
@@ -472,7 +539,7 @@ void copy_model(Document *d)
              [d](const tinygltf::Mesh &m) { return copy_mesh(d, m); });
     copy_all(model.accessors, &d->accessor_items, &d->accessors, &d->accessor_count, copy_accessor);
     copy_all(model.bufferViews, &d->buffer_view_items, &d->buffer_views, &d->buffer_view_count,
-             copy_buffer_view);
+             [d](const tinygltf::BufferView &v) { return copy_buffer_view(d, v); });
     copy_all(model.materials, &d->material_items, &d->materials, &d->material_count, copy_material);
     copy_all(model.textures, &d->texture_items, &d->textures, &d->texture_count, copy_texture);
     copy_all(model.samplers, &d->sampler_items, &d->samplers, &d->sampler_count,

@@ -26,19 +26,38 @@ enum {
 };
 
 /* mode of a primitive */
-enum { PPMI_GLTF_TRIANGLES = 4, PPMI_GLTF_TRIANGLE_STRIP = 5, PPMI_GLTF_TRIANGLE_FAN = 6 };
+enum {
+    PPMI_GLTF_POINTS = 0,
+    PPMI_GLTF_LINES = 1,
+    PPMI_GLTF_LINE_LOOP = 2,
+    PPMI_GLTF_LINE_STRIP = 3,
+    PPMI_GLTF_TRIANGLES = 4,
+    PPMI_GLTF_TRIANGLE_STRIP = 5,
+    PPMI_GLTF_TRIANGLE_FAN = 6
+};
+
+/* EXT_meshopt_compression or KHR_meshopt_compression of a buffer view. Sizes that are no sizes are
+ * SIZE_MAX. */
+typedef struct ppmi_gltf_meshopt {
+    bool is_given;
+    int32_t buffer;
+    size_t byte_offset, byte_length, byte_stride, count;
+    const char *mode, *filter;
+} ppmi_gltf_meshopt;
 
 typedef struct ppmi_gltf_buffer_view {
     int32_t buffer;
     size_t byte_offset, byte_length;
     size_t byte_stride; /* 0: packed */
+    ppmi_gltf_meshopt meshopt;
 } ppmi_gltf_buffer_view;
 
 typedef struct ppmi_gltf_accessor {
     int32_t buffer_view; /* -1: zeros */
     size_t byte_offset;
     int32_t component_type;
-    uint32_t component_count; /* 1..4 of SCALAR and VECn, 0 for matrices */
+    uint32_t component_count; /* 1..4 of SCALAR and VECn; 4, 9, 16 of matrices */
+    uint32_t column_count;    /* of matrices, 2..4; 1 for all others */
     bool normalized;
     size_t count;
     size_t sparse_count; /* 0: not sparse */
@@ -46,7 +65,7 @@ typedef struct ppmi_gltf_accessor {
     size_t sparse_indices_offset, sparse_values_offset;
 } ppmi_gltf_accessor;
 
-/* "POSITION" and the like, and an accessor. */
+/* "POSITION" and the like, and an accessor; among Draco's attributes, an id in its stream. */
 typedef struct ppmi_gltf_attribute {
     const char *name;
     int32_t accessor;
@@ -67,6 +86,9 @@ typedef struct ppmi_gltf_primitive {
     bool is_draco;    /* KHR_draco_mesh_compression is given */
     uint32_t mapping_count;
     const ppmi_gltf_mapping *mappings;
+    int32_t draco_view;
+    uint32_t draco_attribute_count;
+    const ppmi_gltf_attribute *draco_attributes;
 } ppmi_gltf_primitive;
 
 typedef struct ppmi_gltf_mesh {

@@ -1,0 +1,369 @@
+/* Decoded buffer views and accessors. Everything that reads an accessor goes through here, so that
+ * meshes, skins and animations need not know how their bytes are stored. */
+#include "gltf/gltf_decoded.h"
+
+#include <string.h>
+
+#include "gltf/gltf_draco_shim.h"
+#include "gltf/gltf_meshopt.h"
+
+/* More triangles than this for each byte of a Draco stream are not believed (a plane that is a
+ * regular grid comes to about a tenth of that), beyond what a small file may have anyway. */
+enum { MAX_FACES_PER_BYTE = 64, MAX_SMALL_FACES = 65536 };
+
+/* Where the elements of an accessor are, and those elements once decoded. */
+typedef struct draco_source {
+    const ppmi_gltf_primitive *primitive; /* NULL: in no stream */
+    int32_t id;                           /* of the attribute, or DRACO_INDICES */
+    unsigned char *bytes;
+    size_t count; /* elements */
+} draco_source;
+
+enum { DRACO_INDICES = -1 };
+
+struct ppmi_gltf_decoded {
+    unsigned char **views; /* by buffer view; NULL: not decoded */
+    bool *is_given_up;     /* by buffer view: the plain data are used */
+    draco_source *sources; /* by accessor */
+};
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static bool has_no_view(const ppmi_gltf_document *document, int32_t accessor)
+{
+    return accessor >= 0 && (size_t)accessor < document->accessor_count &&
+           document->accessors[accessor].buffer_view < 0;
+}
+
+static void add_source(const ppmi_gltf_document *document, ppmi_gltf_decoded *decoded,
+                       int32_t accessor, const ppmi_gltf_primitive *primitive, int32_t id)
+{
+    if (!has_no_view(document, accessor) || decoded->sources[accessor].primitive) return;
+    decoded->sources[accessor] = (draco_source){.primitive = primitive, .id = id};
+}
+
+/* Attributes are found by their names, in the primitive and in the extension. */
+static void add_primitive(const ppmi_gltf_document *document, ppmi_gltf_decoded *decoded,
+                          const ppmi_gltf_primitive *primitive)
+{
+    if (!primitive->is_draco) return;
+    add_source(document, decoded, primitive->indices, primitive, DRACO_INDICES);
+    for (uint32_t i = 0; i < primitive->draco_attribute_count; ++i) {
+        const ppmi_gltf_attribute *inside = &primitive->draco_attributes[i];
+        for (uint32_t k = 0; k < primitive->attribute_count; ++k) {
+            const ppmi_gltf_attribute *outside = &primitive->attributes[k];
+            if (inside->accessor < 0 || strcmp(inside->name, outside->name) != 0) continue;
+            add_source(document, decoded, outside->accessor, primitive, inside->accessor);
+        }
+    }
+}
+
+/* The tables, made when they are first asked for; NULL when memory is out. */
+static ppmi_gltf_decoded *get_tables(ppmi_gltf_reader *reader)
+{
+    const ppmi_gltf_document *document = reader->document;
+    if (reader->decoded) return reader->decoded;
+    ppmi_gltf_decoded *decoded = ppmi_alloc_zeroed(reader->context, 1, sizeof *decoded);
+    if (!decoded) return NULL;
+    reader->decoded = decoded;
+    /* one more each: an empty list is no case of its own */
+    decoded->views =
+        ppmi_alloc_zeroed(reader->context, document->buffer_view_count + 1, sizeof *decoded->views);
+    decoded->is_given_up = ppmi_alloc_zeroed(reader->context, document->buffer_view_count + 1,
+                                             sizeof *decoded->is_given_up);
+    decoded->sources =
+        ppmi_alloc_zeroed(reader->context, document->accessor_count + 1, sizeof *decoded->sources);
+    if (!decoded->views || !decoded->is_given_up || !decoded->sources) {
+        ppmi_gltf_decoded_deinit(reader);
+        return NULL;
+    }
+    for (size_t i = 0; i < document->mesh_count; ++i) {
+        for (uint32_t k = 0; k < document->meshes[i].primitive_count; ++k) {
+            add_primitive(document, decoded, &document->meshes[i].primitives[k]);
+        }
+    }
+    return decoded;
+}
+
+void ppmi_gltf_decoded_deinit(ppmi_gltf_reader *reader)
+{
+    ppmi_gltf_decoded *decoded = reader->decoded;
+    if (!decoded) return;
+    for (size_t i = 0; decoded->views && i < reader->document->buffer_view_count; ++i) {
+        ppmi_free(reader->context, decoded->views[i]);
+    }
+    for (size_t i = 0; decoded->sources && i < reader->document->accessor_count; ++i) {
+        ppmi_free(reader->context, decoded->sources[i].bytes);
+    }
+    ppmi_free(reader->context, decoded->views);
+    ppmi_free(reader->context, decoded->is_given_up);
+    ppmi_free(reader->context, decoded->sources);
+    ppmi_free(reader->context, decoded);
+    reader->decoded = NULL;
+}
+
+/* ---- buffer views ---------------------------------------------------------------------------- */
+
+/* Whether the view's own buffer has bytes in the file. */
+static bool has_plain_data(const ppmi_gltf_reader *reader, const ppmi_gltf_buffer_view *view)
+{
+    const ppmi_gltf_sources *buffers = &reader->outline.buffers;
+    if (view->buffer < 0 || (size_t)view->buffer >= buffers->count) return false;
+    if (view->buffer == view->meshopt.buffer) return false;
+    return buffers->items[view->buffer].has_uri || (view->buffer == 0 && reader->chunk);
+}
+
+/* Sets *out_fault where the stream cannot be what it claims; it is then NULL. */
+static ppm_status decode_view(ppmi_gltf_reader *reader, const ppmi_gltf_buffer_view *view,
+                              const char *place, unsigned char **out, const char **out_fault)
+{
+    const ppmi_gltf_meshopt *meshopt = &view->meshopt;
+    const unsigned char *stream;
+    ppm_status status = ppmi_gltf_buffer_bytes(reader, meshopt->buffer, meshopt->byte_offset,
+                                               meshopt->byte_length, place, &stream);
+    if (status != PPM_STATUS_OK) return status;
+    *out_fault =
+        meshopt->byte_length > 0 ? ppmi_gltf_meshopt_fault(meshopt, stream) : "it is empty";
+    if (!*out_fault && meshopt->count * meshopt->byte_stride != view->byte_length) {
+        *out_fault = "count * byteStride is not the buffer view's byteLength";
+    }
+    if (*out_fault) return PPM_STATUS_OK;
+    *out = ppmi_alloc(reader->context, view->byte_length, 1);
+    if (!*out) return ppmi_gltf_out_of_memory(reader, place);
+    if (ppmi_gltf_meshopt_decode(meshopt, stream, *out)) return PPM_STATUS_OK;
+    ppmi_free(reader->context, *out);
+    *out = NULL;
+    *out_fault = "the compressed stream is broken";
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_gltf_decoded_view(ppmi_gltf_reader *reader, int32_t view,
+                                  const unsigned char **out_bytes, size_t *out_count)
+{
+    const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
+    const char *fault = NULL;
+    char place[PPMI_GLTF_PLACE];
+    ppmi_gltf_place(place, "bufferViews[%d].extensions.meshopt_compression", (int)view);
+    ppmi_gltf_decoded *decoded = get_tables(reader);
+    *out_bytes = NULL;
+    if (!decoded) return ppmi_gltf_out_of_memory(reader, place);
+    if (!decoded->views[view] && !decoded->is_given_up[view]) {
+        const ppm_status status = decode_view(reader, item, place, &decoded->views[view], &fault);
+        if (status != PPM_STATUS_OK) return status;
+        if (fault && !has_plain_data(reader, item)) {
+            return ppmi_gltf_invalid(reader, place, "%s", fault);
+        }
+        if (fault) ppmi_gltf_warn(reader, place, "%s: the plain data are used", fault);
+        decoded->is_given_up[view] = fault != NULL;
+    }
+    *out_bytes = decoded->views[view];
+    *out_count = item->byte_length;
+    return PPM_STATUS_OK;
+}
+
+/* ---- Draco ----------------------------------------------------------------------------------- */
+
+static size_t type_size(int32_t type)
+{
+    return type == PPMI_GLTF_BYTE || type == PPMI_GLTF_UNSIGNED_BYTE     ? 1
+           : type == PPMI_GLTF_SHORT || type == PPMI_GLTF_UNSIGNED_SHORT ? 2
+                                                                         : 4;
+}
+
+/* Writes a number as a component; false when the type does not hold it. */
+static bool put_component(double value, int32_t type, unsigned char *out)
+{
+    static const double low[] = {-128.0, 0.0, -32768.0, 0.0, 0.0, 0.0};
+    static const double high[] = {127.0, 255.0, 32767.0, 65535.0, 0.0, 4294967295.0};
+    if (type == PPMI_GLTF_FLOAT) {
+        const float single = (float)value;
+        memcpy(out, &single, sizeof single);
+        return true;
+    }
+    const int k = type - PPMI_GLTF_BYTE;
+    if (k < 0 || k > 5 || !(value >= low[k] && value <= high[k])) return false;
+    const int64_t whole = (int64_t)value;
+    memcpy(out, &whole, type_size(type)); /* little-endian, as glTF is */
+    return true;
+}
+
+static ppm_status store_values(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
+                               const double *values, size_t count, const char *place,
+                               draco_source *source)
+{
+    const size_t size = type_size(accessor->component_type);
+    const size_t total = count * accessor->component_count;
+    source->bytes = ppmi_alloc(reader->context, total, size);
+    source->count = count;
+    if (!source->bytes) return ppmi_gltf_out_of_memory(reader, place);
+    for (size_t i = 0; i < total; ++i) {
+        if (put_component(values[i], accessor->component_type, source->bytes + i * size)) continue;
+        ppmi_free(reader->context, source->bytes);
+        source->bytes = NULL;
+        return ppmi_gltf_invalid(reader, place,
+                                 "%g in the Draco stream does not fit componentType %d", values[i],
+                                 (int)accessor->component_type);
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status read_values(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco, int32_t id,
+                              const ppmi_gltf_accessor *accessor, const char *place, double *values)
+{
+    const uint32_t points = ppmi_gltf_draco_point_count(draco);
+    if (points != accessor->count) {
+        return ppmi_gltf_invalid(reader, place,
+                                 "%u vertices in the Draco stream, the accessor has %zu",
+                                 (unsigned)points, accessor->count);
+    }
+    if (!ppmi_gltf_draco_values(draco, id, accessor->component_count, values)) {
+        return ppmi_gltf_invalid(reader, place, "attribute %d of the Draco stream does not suit it",
+                                 (int)id);
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status read_draco_indices(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco,
+                                     const ppmi_gltf_primitive *primitive,
+                                     const ppmi_gltf_accessor *accessor, const char *place,
+                                     double *values)
+{
+    const size_t count = 3 * (size_t)ppmi_gltf_draco_face_count(draco);
+    if (primitive->mode == PPMI_GLTF_TRIANGLES && count != accessor->count) {
+        return ppmi_gltf_invalid(reader, place,
+                                 "%zu indices in the Draco stream, the accessor has %zu", count,
+                                 accessor->count);
+    }
+    uint32_t *indices = ppmi_alloc(reader->context, count, sizeof *indices);
+    if (!indices) return ppmi_gltf_out_of_memory(reader, place);
+    ppmi_gltf_draco_indices(draco, indices);
+    for (size_t i = 0; i < count; ++i) {
+        values[i] = indices[i];
+    }
+    ppmi_free(reader->context, indices);
+    return PPM_STATUS_OK;
+}
+
+/* One accessor out of the stream. */
+static ppm_status extract(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco, int32_t index,
+                          const char *place)
+{
+    draco_source *source = &reader->decoded->sources[index];
+    const ppmi_gltf_accessor *accessor = &reader->document->accessors[index];
+    char inner[PPMI_GLTF_PLACE];
+    ppmi_gltf_place(inner, "%s (accessors[%d])", place, (int)index);
+    if (accessor->column_count != 1 || accessor->component_count > 4) {
+        return ppmi_gltf_invalid(reader, inner, "matrices cannot be in a Draco stream");
+    }
+    const bool is_index = source->id == DRACO_INDICES;
+    if (is_index && accessor->component_count != 1) {
+        return ppmi_gltf_invalid(reader, inner, "indices must be unsigned scalars");
+    }
+    const size_t count = is_index ? 3 * (size_t)ppmi_gltf_draco_face_count(draco)
+                                  : ppmi_gltf_draco_point_count(draco);
+    if (count == 0) return ppmi_gltf_invalid(reader, inner, "the Draco stream is empty");
+    double *values = ppmi_alloc(reader->context, count * accessor->component_count, sizeof *values);
+    if (!values) return ppmi_gltf_out_of_memory(reader, inner);
+    ppm_status status =
+        is_index ? read_draco_indices(reader, draco, source->primitive, accessor, inner, values)
+                 : read_values(reader, draco, source->id, accessor, inner, values);
+    if (status == PPM_STATUS_OK) {
+        status = store_values(reader, accessor, values, count, inner, source);
+    }
+    ppmi_free(reader->context, values);
+    return status;
+}
+
+/* How many triangles the primitive's indices speak of. */
+static uint32_t count_faces(const ppmi_gltf_document *document,
+                            const ppmi_gltf_primitive *primitive, size_t stream_length)
+{
+    const bool has_indices =
+        primitive->indices >= 0 && (size_t)primitive->indices < document->accessor_count;
+    size_t faces = has_indices ? document->accessors[primitive->indices].count : 0;
+    if (primitive->mode == PPMI_GLTF_TRIANGLES) faces /= 3;
+    const size_t most = MAX_SMALL_FACES + MAX_FACES_PER_BYTE * stream_length;
+    faces = faces < most ? faces : most;
+    return faces < UINT32_MAX / 3 ? (uint32_t)faces : UINT32_MAX / 3;
+}
+
+static ppm_status decode_stream(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                                const char *place, ppmi_gltf_draco **out)
+{
+    const unsigned char *stream;
+    size_t length;
+    const char *reason;
+    ppm_status status =
+        ppmi_gltf_view_bytes(reader, primitive->draco_view, place, &stream, &length);
+    if (status != PPM_STATUS_OK) return status;
+    if (primitive->mode != PPMI_GLTF_TRIANGLES && primitive->mode != PPMI_GLTF_TRIANGLE_STRIP) {
+        return ppmi_gltf_invalid(reader, place,
+                                 "mode %d: Draco streams hold triangles or strips of them",
+                                 (int)primitive->mode);
+    }
+    status = ppmi_gltf_draco_create(stream, length,
+                                    count_faces(reader->document, primitive, length), &reason, out);
+    if (status == PPM_STATUS_OUT_OF_MEMORY) return ppmi_gltf_out_of_memory(reader, place);
+    if (status == PPM_STATUS_OK) return status;
+    return ppmi_fail(reader->context, status, "%s: %s: %s", reader->path, place, reason);
+}
+
+/* All accessors of the stream at once: decoding it is what takes time. */
+static ppm_status extract_all(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                              const ppmi_gltf_draco *draco, const char *place)
+{
+    ppm_status status = PPM_STATUS_OK;
+    for (uint32_t i = 0; i <= primitive->attribute_count && status == PPM_STATUS_OK; ++i) {
+        const int32_t accessor =
+            i < primitive->attribute_count ? primitive->attributes[i].accessor : primitive->indices;
+        if (!has_no_view(reader->document, accessor)) continue;
+        const draco_source *source = &reader->decoded->sources[accessor];
+        if (source->primitive == primitive && !source->bytes) {
+            status = extract(reader, draco, accessor, place);
+        }
+    }
+    return status;
+}
+
+ppm_status ppmi_gltf_decoded_accessor(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
+                                      const unsigned char **out_bytes, size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE];
+    ppmi_gltf_place(inner, "%s: KHR_draco_mesh_compression", place);
+    *out_bytes = NULL;
+    if (!get_tables(reader)) return ppmi_gltf_out_of_memory(reader, inner);
+    draco_source *source = &reader->decoded->sources[accessor];
+    if (!source->primitive) return PPM_STATUS_OK;
+    ppm_status status = PPM_STATUS_OK;
+    if (!source->bytes) {
+        ppmi_gltf_draco *draco = NULL;
+        status = decode_stream(reader, source->primitive, inner, &draco);
+        if (status == PPM_STATUS_OK) {
+            status = extract_all(reader, source->primitive, draco, inner);
+        }
+        ppmi_gltf_draco_destroy(draco);
+    }
+    if (status != PPM_STATUS_OK) return status;
+    *out_bytes = source->bytes;
+    *out_count = source->count;
+    return status;
+}
+
+static void release(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                    int32_t accessor)
+{
+    if (!has_no_view(reader->document, accessor)) return;
+    draco_source *source = &reader->decoded->sources[accessor];
+    if (source->primitive != primitive) return;
+    ppmi_free(reader->context, source->bytes);
+    source->bytes = NULL;
+}
+
+void ppmi_gltf_decoded_release(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive)
+{
+    if (!reader->decoded || !primitive->is_draco) return;
+    release(reader, primitive, primitive->indices);
+    for (uint32_t i = 0; i < primitive->attribute_count; ++i) {
+        release(reader, primitive, primitive->attributes[i].accessor);
+    }
+}
