@@ -144,7 +144,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
                          "compressed; write the file without mesh compression",
                          reader->path, place);
     }
-    if (primitive->has_targets) reader->tally.morph_targets++;
+    if (primitive->target_count > 0) reader->tally.morph_targets++;
     ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
     ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
                                               &g->vertex_count);
