@@ -9,6 +9,7 @@ enum { MAX_LISTED = 64 }; /* of the used ones */
 static const char *const supported[] = {
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_lights_punctual",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
@@ -18,6 +19,7 @@ static const char *const supported[] = {
     "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 };
 
