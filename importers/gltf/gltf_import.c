@@ -3,8 +3,12 @@
 
 #include <string.h>
 
+#include "gltf/gltf_animation.h"
+#include "gltf/gltf_asset.h"
 #include "gltf/gltf_decoded.h"
 #include "gltf/gltf_extensions.h"
+#include "gltf/gltf_placement.h"
+#include "gltf/gltf_pose.h"
 #include "gltf/gltf_reader.h"
 
 /* The tables that remember what has been added already. */
@@ -21,7 +25,9 @@ static ppm_status allocate_tables(ppmi_gltf_reader *r)
     r->meshes = ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_MESHES].count + 1, sizeof *r->meshes);
     r->empty_meshes =
         ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_MESHES].count + 1, sizeof *r->empty_meshes);
-    if (!r->buffers || !r->images || !r->materials || !r->meshes || !r->empty_meshes) {
+    r->animations = ppmi_alloc_zeroed(r->context, 1, sizeof *r->animations);
+    if (!r->animations || !r->buffers || !r->images || !r->materials || !r->meshes ||
+        !r->empty_meshes) {
         return ppmi_fail(r->context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", r->path);
     }
     return PPM_STATUS_OK;
@@ -44,7 +50,10 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
                  {PPMI_GLTF_SAMPLERS, d->sampler_count},
                  {PPMI_GLTF_CAMERAS, d->camera_count},
                  {PPMI_GLTF_LIGHTS, d->light_count},
-                 {PPMI_GLTF_VARIANTS, d->variant_count}};
+                 {PPMI_GLTF_VARIANTS, d->variant_count},
+
+                 {PPMI_GLTF_SKINS, d->skin_count},
+                 {PPMI_GLTF_ANIMATIONS, d->animation_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,
@@ -117,9 +126,13 @@ static void report(const ppmi_gltf_reader *r)
     }
 }
 
-/* ---- the import ------------------------------------------------------------------------------ */
+/* ---- the asset ------------------------------------------------------------------------------- */
 
-static ppm_status run(ppmi_gltf_reader *r)
+struct ppmi_gltf_asset {
+    ppmi_gltf_reader reader;
+};
+
+static ppm_status open_reader(ppmi_gltf_reader *r)
 {
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
@@ -128,10 +141,6 @@ static ppm_status run(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
-    if (status == PPM_STATUS_OK) status = ppmi_gltf_load_images(r);
-    if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
-    if (status == PPM_STATUS_OK) report(r);
-    if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
     return status;
 }
 
@@ -148,23 +157,72 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_gltf_report_deinit(r->context, &r->report);
     ppmi_free(r->context, r->xmp);
     ppmi_gltf_decoded_deinit(r);
+    ppmi_gltf_animations_deinit(r->context, r->animations);
+    ppmi_gltf_pose_destroy(r->context, r->pose);
+    ppmi_gltf_placements_destroy(r->context, r->placements);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);
 }
 
-ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *path,
-                            const ppm_import_options *options)
+ppm_status ppmi_gltf_asset_open(ppm_context *context, const char *path,
+                                const ppm_import_options *options, ppmi_gltf_asset **out_asset)
 {
-    ppmi_gltf_reader reader = {
-        .context = context, .scene = scene, .options = options, .path = path};
     if (options->light_units < PPM_LIGHT_UNITS_AUTO || options->light_units > PPM_LIGHT_UNITS_RAW ||
         options->transmission < PPM_TRANSMISSION_POLICY_AUTO ||
         options->transmission > PPM_TRANSMISSION_POLICY_THIN) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "import: light_units or transmission is none of the constants");
     }
-    const ppm_status status = run(&reader);
-    deinit(&reader);
+    ppmi_gltf_asset *asset = ppmi_alloc_zeroed(context, 1, sizeof *asset);
+    if (!asset) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
+    asset->reader.context = context;
+    asset->reader.options = options;
+    asset->reader.path = path;
+    const ppm_status status = open_reader(&asset->reader);
+    if (status != PPM_STATUS_OK) {
+        ppmi_gltf_asset_close(asset);
+        return status;
+    }
+    *out_asset = asset;
+    return PPM_STATUS_OK;
+}
+
+void ppmi_gltf_asset_close(ppmi_gltf_asset *asset)
+{
+    if (!asset) return;
+    ppm_context *context = asset->reader.context;
+    deinit(&asset->reader);
+    ppmi_free(context, asset);
+}
+
+ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
+{
+    ppmi_gltf_reader *r = &asset->reader;
+    r->scene = scene;
+    ppm_status status = ppmi_gltf_load_images(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
+    if (status == PPM_STATUS_OK) report(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
+    return status;
+}
+
+ppm_status ppmi_gltf_asset_set_pose(ppmi_gltf_asset *asset, const ppm_pose *pose)
+{
+    return ppmi_gltf_pose_nodes(&asset->reader, pose);
+}
+
+const ppmi_gltf_reader *ppmi_gltf_asset_reader(const ppmi_gltf_asset *asset)
+{
+    return &asset->reader;
+}
+
+ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *path,
+                            const ppm_import_options *options)
+{
+    ppmi_gltf_asset *asset = NULL;
+    ppm_status status = ppmi_gltf_asset_open(context, path, options, &asset);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_asset_import(asset, scene);
+    ppmi_gltf_asset_close(asset);
     return status;
 }
