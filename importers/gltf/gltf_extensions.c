@@ -7,6 +7,9 @@
 enum { MAX_LISTED = 64 }; /* of the used ones */
 
 static const char *const supported[] = {
+    "EXT_lights_area",
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_lights_punctual",

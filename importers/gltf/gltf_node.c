@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "gltf/gltf_reader.h"
+#include "gltf/gltf_light.h"
 
 /* The walk: parents come before their children. */
 typedef struct walk {
@@ -193,9 +193,7 @@ static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index, const doubl
     if (status == PPM_STATUS_OK && node->camera >= 0) {
         status = ppmi_gltf_add_camera(reader, index, world);
     }
-    if (status == PPM_STATUS_OK && node->light >= 0) {
-        status = ppmi_gltf_add_light(reader, index, world);
-    }
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_add_lights(reader, index, world);
     return status;
 }
 

@@ -17,6 +17,9 @@ static const char *const list_names[PPMI_GLTF_LIST_COUNT] = {[PPMI_GLTF_SCENES] 
                                                              [PPMI_GLTF_SAMPLERS] = "samplers",
                                                              [PPMI_GLTF_CAMERAS] = "cameras",
                                                              [PPMI_GLTF_LIGHTS] = "lights",
+                                                             [PPMI_GLTF_AREA_LIGHTS] = "lights",
+                                                             [PPMI_GLTF_LIGHT_PROFILES] = "lights",
+                                                             [PPMI_GLTF_IMAGE_LIGHTS] = "lights",
                                                              [PPMI_GLTF_ANIMATIONS] = "animations",
                                                              [PPMI_GLTF_SKINS] = "skins"};
 

@@ -24,10 +24,19 @@ typedef struct ppmi_gltf_image_use {
     ppm_image_id id; /* 0 after a failure */
 } ppmi_gltf_image_use;
 
+/* A light profile, read at its first use. */
+typedef struct ppmi_gltf_profile_use {
+    bool is_tried;
+    ppm_light_profile_id id; /* 0 after a failure */
+    float turn_rad;          /* of the lights that use it, about their axis */
+} ppmi_gltf_profile_use;
+
 /* What is counted and told once, at the end. */
 typedef struct ppmi_gltf_tally {
     size_t instances;
-    size_t punctual_lights;
+    size_t punctual_lights; /* KHR_lights_punctual and lamps whose numbers depend on the units */
+    size_t ranges;          /* of lights, which are not looked at */
+    size_t doubtful_suns;
     size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
@@ -50,6 +59,7 @@ typedef struct ppmi_gltf_reader {
 
     ppmi_gltf_bytes *buffers;         /* one per buffer */
     ppmi_gltf_image_use *images;      /* two per image: colour, data */
+    ppmi_gltf_profile_use *profiles;  /* one per light profile */
     ppm_material_id *materials;       /* one per material; 0: not added yet */
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
@@ -68,6 +78,11 @@ ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader);
  * valid until the reader ends. */
 ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const char *place,
                                 const unsigned char **out_bytes, size_t *out_count);
+
+/* The bytes that a URI without escapes names, data or a file of the asset's folder; the caller's.
+ * Returns OK, INPUT_NOT_FOUND, INPUT_INVALID, OUT_OF_MEMORY, unreported, with the reason. */
+ppm_status ppmi_gltf_read_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
+                              unsigned char **out_bytes, size_t *out_count, const char **reason);
 
 /* A URI without JSON escapes. Data URIs are long and have none, as a rule, so it is copied only if
  * need be: *out_owned is then the caller's to free. NULL when memory is out. */
@@ -135,11 +150,8 @@ ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, co
 ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,
                                  int32_t role, const char *place, ppm_texture *out_texture);
 
-/* gltf_camera_light.c: adds the camera or light of a node. world is its column-major transform. */
+/* gltf_camera.c: adds the camera of a node. world is its column-major transform. Lights are in
+ * gltf_light.h. */
 ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
-ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
-
-/* The light units in effect, PPM_LIGHT_UNITS_ without AUTO. */
-int32_t ppmi_gltf_light_units(const ppmi_gltf_reader *reader);
 
 #endif

@@ -66,9 +66,30 @@ typedef struct ppmi_gltf_mesh {
     const ppmi_gltf_primitive *primitives;
 } ppmi_gltf_mesh;
 
+/* extras of a light, and of the node that carries it; below 0: not said */
+typedef struct ppmi_gltf_lamp_extras {
+    double radius_m;  /* ppm_radius */
+    double angle_rad; /* ppm_angle */
+    int32_t visible;  /* ppm_visible */
+} ppmi_gltf_lamp_extras;
+
+/* extras.ppm_area of a node */
+typedef struct ppmi_gltf_area_extras {
+    bool is_given;
+    const char *shape;        /* "" where it is not said */
+    double size[2];           /* 0: not said */
+    double radiance, power_w; /* below 0: not said */
+    double color[3];
+} ppmi_gltf_area_extras;
+
 typedef struct ppmi_gltf_node {
     const char *name;
     int32_t mesh, camera, skin, light;
+    int32_t area_light; /* EXT_lights_area */
+    int32_t profile;    /* EXT_lights_ies, with multiplier and colour */
+    double profile_factor, profile_color[3];
+    ppmi_gltf_lamp_extras lamp;
+    ppmi_gltf_area_extras area;
     uint32_t child_count;
     const int32_t *children;
     bool has_matrix;
@@ -82,6 +103,7 @@ typedef struct ppmi_gltf_node {
 typedef struct ppmi_gltf_scene {
     uint32_t node_count;
     const int32_t *nodes;
+    int32_t image_light; /* EXT_lights_image_based */
 } ppmi_gltf_scene;
 
 typedef struct ppmi_gltf_camera {
@@ -99,7 +121,34 @@ typedef struct ppmi_gltf_light {
     double color[3];
     double intensity;
     double inner_cone_rad, outer_cone_rad;
+    double range_m; /* 0: not said */
+    ppmi_gltf_lamp_extras lamp;
 } ppmi_gltf_light;
+
+/* EXT_lights_area */
+typedef struct ppmi_gltf_area_light {
+    const char *name;
+    bool is_disk;
+    double color[3], intensity, size, aspect;
+    ppmi_gltf_lamp_extras lamp;
+} ppmi_gltf_area_light;
+
+/* EXT_lights_ies: a URI, or the index of a buffer view */
+typedef struct ppmi_gltf_light_profile {
+    const char *name, *uri; /* uri "": none */
+    size_t uri_length;
+    int32_t buffer_view;
+} ppmi_gltf_light_profile;
+
+/* EXT_lights_image_based */
+typedef struct ppmi_gltf_image_light {
+    const char *name;
+    double intensity, rotation[4];
+    bool has_faces;
+    int32_t faces[6]; /* images of the sharpest level: +X -X +Y -Y +Z -Z */
+    bool has_irradiance;
+    double irradiance[9][3]; /* spherical harmonics */
+} ppmi_gltf_image_light;
 
 typedef struct ppmi_gltf_texture_info {
     int32_t texture;
@@ -145,7 +194,8 @@ typedef struct ppmi_gltf_document {
     const char *const *extensions_used;
     const char *const *extensions_required;
     size_t scene_count, node_count, mesh_count, accessor_count, buffer_view_count, material_count,
-        texture_count, sampler_count, camera_count, light_count;
+        texture_count, sampler_count, camera_count, light_count, area_light_count, profile_count,
+        image_light_count;
     const ppmi_gltf_scene *scenes;
     const ppmi_gltf_node *nodes;
     const ppmi_gltf_mesh *meshes;
@@ -156,6 +206,9 @@ typedef struct ppmi_gltf_document {
     const ppmi_gltf_sampler *samplers;
     const ppmi_gltf_camera *cameras;
     const ppmi_gltf_light *lights;
+    const ppmi_gltf_area_light *area_lights;
+    const ppmi_gltf_light_profile *profiles;
+    const ppmi_gltf_image_light *image_lights;
 } ppmi_gltf_document;
 
 /* file is for messages. Returns OK, INPUT_INVALID with tinygltf's text, OUT_OF_MEMORY. */
