@@ -145,6 +145,10 @@ ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char
 ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, const char *place,
                                   ppm_material_id *out_id);
 
+/* gltf_image.c: an image in a role, added at its first use; 0 when it cannot be had. */
+ppm_status ppmi_gltf_use_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
+                               const char *place, ppm_image_id *out_id);
+
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */
 ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,

@@ -356,7 +356,8 @@ typedef struct ppm_light_desc {
     float angular_radius_rad; /* directional: the light comes from a disk in the sky of this radius
                                  and of even radiance, which can be seen; < pi/2. Less than 1e-4 is
                                  taken as 0: parallel light */
-    float radius_m;     /* point, spot: of a ball that sends the same intensity in each direction,
+    float
+        radius_m;       /* point, spot: of a ball that sends the same intensity in each direction,
                            evenly     from all over its outline; less than 1e-6 is taken as 0: a point */
     float width_m;      /* rectangle, disk: along the local X, > 0 */
     float height_m;     /* rectangle, disk: along the local Y, > 0 */
@@ -386,6 +387,22 @@ typedef struct ppm_environment_desc {
  * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
  * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
+
+/* Surroundings as the six sides of a cube, each a picture of its side as one sees it from inside.
+ */
+typedef struct ppm_cube_environment_desc {
+    uint32_t size;         /* sizeof(ppm_cube_environment_desc) */
+    ppm_image_id faces[6]; /* square, towards +X -X +Y -Y +Z -Z. Up in the picture is +Y, in that of
+                              +Y it is -Z, in that of -Y +Z */
+    uint32_t is_rgbd;      /* non-zero: colours of 8-bit images with alpha are divided by it */
+    float radiance[3];     /* nit, linear Rec.709; multiplies the images */
+    float rotation[4];     /* turns the cube: a quaternion x y z w of any length; all 0: none */
+} ppm_cube_environment_desc;
+
+/* Sets the environment to a latitude-longitude image made of the cube, with the backdrop that it
+ * had. Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_set_cube_environment(ppm_scene *scene,
+                                                  const ppm_cube_environment_desc *desc);
 
 /* A clear sky with its sun (Preetham, Shirley, Smits 1999), in nit and lux. Fill with
  * ppm_sun_sky_desc_init first. */
