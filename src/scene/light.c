@@ -56,6 +56,14 @@ static float *copy_floats(ppm_scene *scene, const float *values, size_t count)
     return copy;
 }
 
+void ppmi_light_profile_deinit(ppm_context *context, ppmi_light_profile *profile)
+{
+    ppmi_free(context, profile->name);
+    ppmi_free(context, profile->polar_rad);
+    ppmi_free(context, profile->azimuth_rad);
+    ppmi_free(context, profile->candela);
+}
+
 ppm_status ppm_scene_add_light_profile(ppm_scene *scene, const ppm_light_profile_desc *desc,
                                        ppm_light_profile_id *out_id)
 {
@@ -71,21 +79,21 @@ ppm_status ppm_scene_add_light_profile(ppm_scene *scene, const ppm_light_profile
         ppmi_scene_grow(scene->context, scene->profiles, scene->profile_count, sizeof *profiles);
     if (!profiles) return PPM_STATUS_OUT_OF_MEMORY;
     scene->profiles = profiles;
-    ppmi_light_profile *profile = &profiles[scene->profile_count];
     const size_t count = (size_t)desc->polar_count * desc->azimuth_count;
-    scene->profile_count++; /* from here ppm_scene_destroy frees what there is */
-    *profile = (ppmi_light_profile){
+    ppmi_light_profile profile = {
         .name = ppmi_string_copy(scene->context, name),
         .polar_rad = copy_floats(scene, desc->polar_rad, desc->polar_count),
         .azimuth_rad = copy_floats(scene, desc->azimuth_rad, desc->azimuth_count),
         .candela = copy_floats(scene, desc->candela, count),
+        .polar_count = desc->polar_count,
+        .azimuth_count = desc->azimuth_count,
     };
-    if (!profile->name || !profile->polar_rad || !profile->azimuth_rad || !profile->candela) {
+    if (!profile.name || !profile.polar_rad || !profile.azimuth_rad || !profile.candela) {
+        ppmi_light_profile_deinit(scene->context, &profile);
         return fail_memory(scene);
     }
-    profile->polar_count = desc->polar_count;
-    profile->azimuth_count = desc->azimuth_count;
-    *out_id = scene->profile_count;
+    profiles[scene->profile_count] = profile;
+    *out_id = ++scene->profile_count;
     return PPM_STATUS_OK;
 }
 

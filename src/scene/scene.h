@@ -143,6 +143,9 @@ typedef struct ppmi_light_profile {
     float *polar_rad, *azimuth_rad, *candela;
 } ppmi_light_profile;
 
+/* Frees what it holds. */
+void ppmi_light_profile_deinit(ppm_context *context, ppmi_light_profile *profile);
+
 typedef struct ppmi_environment {
     bool is_set;
     ppmi_vec3 radiance;

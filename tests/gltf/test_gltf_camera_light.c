@@ -1,4 +1,4 @@
-/* importers/gltf/gltf_camera_light.c */
+/* importers/gltf/gltf_camera.c, gltf_light.c: cameras and punctual lights. */
 #include <math.h>
 #include <stdio.h>
 

@@ -54,15 +54,15 @@ static void the_factors_bring_all_to_one_scale(void **state)
     const double candela = 100 / (4 * PI);
     const int point = PPMI_GLTF_LIGHT_POINT, sun = PPMI_GLTF_LIGHT_DIRECTIONAL;
     assert_near(100 * ppmi_gltf_unit_factor(PPM_LIGHT_UNITS_RAW, point), candela, 1e-6);
-    assert_near(683 * candela * ppmi_gltf_unit_factor(PPM_LIGHT_UNITS_BLENDER, point),
-                        candela, 1e-6);
+    assert_near(683 * candela * ppmi_gltf_unit_factor(PPM_LIGHT_UNITS_BLENDER, point), candela,
+                1e-6);
     assert_near(3 * ppmi_gltf_unit_factor(PPM_LIGHT_UNITS_RAW, sun), 3, 1e-6);
     assert_near(2049 * ppmi_gltf_unit_factor(PPM_LIGHT_UNITS_BLENDER, sun), 3, 1e-6);
     assert_near(ppmi_gltf_watt_factor(PPM_LIGHT_UNITS_RAW), 1, 0);
     assert_near(ppmi_gltf_watt_factor(PPM_LIGHT_UNITS_BLENDER), 1, 0);
     assert_near(ppmi_gltf_watt_factor(PPM_LIGHT_UNITS_GLTF) *
-                            ppmi_gltf_candela_factor(PPM_LIGHT_UNITS_BLENDER),
-                        1, 1e-9);
+                    ppmi_gltf_candela_factor(PPM_LIGHT_UNITS_BLENDER),
+                1, 1e-9);
     assert_near(ppmi_gltf_candela_factor(PPM_LIGHT_UNITS_GLTF), 1, 0);
 }
 

@@ -67,9 +67,18 @@ static ppm_status fill(ppm_scene *scene)
                                   .channels = 1};
     ppm_instance_desc instance = {.size = sizeof instance,
                                   .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-    const ppm_light_desc light = {.size = sizeof light,
-                                  .intensity = {1, 1, 1},
-                                  .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}};
+    const float angles[2] = {0.0f, 1.0f}, candela[4] = {1, 2, 3, 4};
+    const ppm_light_profile_desc profile = {.size = sizeof profile,
+                                            .name = "profile",
+                                            .polar_count = 2,
+                                            .azimuth_count = 2,
+                                            .polar_rad = angles,
+                                            .azimuth_rad = angles,
+                                            .candela = candela};
+    ppm_light_desc light = {.size = sizeof light,
+                            .intensity = {1, 1, 1},
+                            .radius_m = 0.1f,
+                            .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}};
     ppm_image_id image_id;
     ppm_material_id material_id;
     uint32_t id;
@@ -79,12 +88,18 @@ static ppm_status fill(ppm_scene *scene)
         TRY(add_triangles(scene, material_id, &instance.mesh));
         instance.transform[12] = (float)i;
         TRY(ppm_scene_add_instance(scene, &instance, &id));
+        TRY(ppm_scene_add_light_profile(scene, &profile, &light.profile));
         TRY(ppm_scene_add_light(scene, &light, &id));
         TRY(ppm_scene_add_framing_camera(scene, 1.0f, &id));
     }
     const ppm_environment_desc environment = {
         .size = sizeof environment, .radiance = {1, 1, 1}, .image = image_id};
-    return ppm_scene_set_environment(scene, &environment);
+    TRY(ppm_scene_set_environment(scene, &environment));
+    const ppm_cube_environment_desc cube = {
+        .size = sizeof cube,
+        .faces = {image_id, image_id, image_id, image_id, image_id, image_id},
+        .radiance = {1, 1, 1}};
+    return ppm_scene_set_cube_environment(scene, &cube);
 }
 
 static ppm_context *make_context(void)
