@@ -10,6 +10,7 @@ typedef struct ppmi_gltf_geometry {
     float *positions, *normals, *tangents, *colors;
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;
+    uint32_t *sources; /* the number in the file of each vertex, or NULL: its own */
     ppm_material_id material;
 } ppmi_gltf_geometry;
 

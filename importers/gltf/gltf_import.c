@@ -116,8 +116,6 @@ static void report(const ppmi_gltf_reader *r)
     report_count(r, tally->points_or_lines, "primitives of points or lines left out");
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
-    report_count(r, tally->skins, "skinned nodes: skins are not applied");
-    report_count(r, tally->morph_targets, "primitives with morph targets: not applied");
     if (!r->options->pose.is_animated) {
         report_count(r, r->outline.lists[PPMI_GLTF_ANIMATIONS].count,
                      "animations: the file's static pose is shown");
@@ -157,7 +155,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->empty_meshes);
     ppmi_gltf_animations_deinit(r->context, r->animations);
     ppmi_gltf_pose_destroy(r->context, r->pose);
-    ppmi_gltf_placements_destroy(r->context, r->placements);
+    ppmi_gltf_placements_destroy(r);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

@@ -28,7 +28,7 @@ typedef struct ppmi_gltf_image_use {
 typedef struct ppmi_gltf_tally {
     size_t instances;
     size_t punctual_lights;
-    size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
+    size_t points_or_lines, broken_counts, no_positions;
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
 
