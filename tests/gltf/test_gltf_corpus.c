@@ -132,6 +132,26 @@ static void compare_bounds(gltf_fixture *f, const char *path, const expected *e)
     }
 }
 
+/* Whether the file has skins or morph targets, which the table leaves out. */
+static bool is_deformed(const char *path)
+{
+    static const char *const words[] = {"\"JOINTS_0\"", "\"targets\""};
+    char full[MAX_PATH];
+    static char text[1 << 20]; /* descriptions are shorter than this */
+    snprintf(full, sizeof full, PPM_ASSETS_DIR "/%s", path);
+    FILE *file = fopen(full, "rb");
+    assert_non_null(file);
+    const size_t count = fread(text, 1, sizeof text, file);
+    fclose(file);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
+        const size_t length = strlen(words[i]);
+        for (size_t k = 0; k + length <= count; ++k) {
+            if (memcmp(text + k, words[i], length) == 0) return true;
+        }
+    }
+    return false;
+}
+
 static void import_valid(gltf_fixture *f, const char *path)
 {
     expected e;
@@ -148,7 +168,9 @@ static void import_valid(gltf_fixture *f, const char *path)
     }
     /* in the table's boxes are points and lines, but not what EXT_mesh_gpu_instancing places */
     const bool is_instanced = strstr(path, "nstanc") && f->scene->instance_count > 100;
-    if (e.lines == 0 && e.points == 0 && !is_instanced) compare_bounds(f, path, &e);
+    if (e.lines == 0 && e.points == 0 && !is_instanced && !is_deformed(path)) {
+        compare_bounds(f, path, &e);
+    }
 }
 
 static void valid_files_are_read_as_others_read_them(void **state)
