@@ -474,7 +474,7 @@ ppm_status ppmi_gltf_deform_read(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
     p->positions = g->positions;
     p->normals = g->normals;
     p->tangents = g->tangents;
-    g->positions = g->normals = g->tangents = NULL;
+    g->is_taken = true;
     return status;
 }
 

@@ -14,9 +14,11 @@ static const ppmi_gltf_format color_format = {3, 4, 4, true};
 
 static void free_geometry(ppm_context *context, ppmi_gltf_geometry *g)
 {
-    ppmi_free(context, g->positions);
-    ppmi_free(context, g->normals);
-    ppmi_free(context, g->tangents);
+    if (!g->is_taken) {
+        ppmi_free(context, g->positions);
+        ppmi_free(context, g->normals);
+        ppmi_free(context, g->tangents);
+    }
     ppmi_free(context, g->colors);
     for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
         ppmi_free(context, g->uvs[i]);
