@@ -349,6 +349,17 @@ static bool add_source(checker *c, uint8_t list)
     return true;
 }
 
+/* Puts a member in front of those of the object that comes next. */
+static bool add_member(checker *c)
+{
+    if (ppmi_gltf_json_peek(&c->json) != '{') return true;
+    const size_t begin = c->json.at;
+    ppmi_gltf_json inside = c->json;
+    inside.at++;
+    const bool is_empty = ppmi_gltf_json_peek(&inside) == '}';
+    return add_patch(c, begin, begin + 1, is_empty ? "{\"_\":0" : "{\"_\":0,");
+}
+
 /* One element of a list: what breaks it stays its own affair. */
 static bool check_element(checker *c, const gltf_field *field, ppmi_gltf_list *list)
 {
@@ -363,6 +374,7 @@ static bool check_element(checker *c, const gltf_field *field, ppmi_gltf_list *l
     if (!add_source(c, field->list)) return false;
     c->reason = &list->broken[list->count++];
     *c->reason = NULL;
+    if ((field->flags & GLTF_KEEPS_EMPTY) && !add_member(c)) return false;
     if (!check_object(c, &item)) return false;
     if (*c->reason && !add_patch(c, begin, c->json.at, field->placeholder)) return false;
     c->reason = outer;

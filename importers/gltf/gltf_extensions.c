@@ -13,6 +13,9 @@ static const struct {
     int32_t verdict;
     const char *note;
 } rows[] = {
+    {"EXT_lights_area", PPM_FEATURE_HONOURED, "the proposal"},
+    {"EXT_lights_ies", PPM_FEATURE_HONOURED, ""},
+    {"EXT_lights_image_based", PPM_FEATURE_HONOURED, ""},
     {"EXT_materials_retroreflection", PPM_FEATURE_HONOURED,
      "as KHR_materials_retroreflection, which it became"},
     {"EXT_mesh_gpu_instancing", PPM_FEATURE_HONOURED, ""},

@@ -95,7 +95,7 @@ void ppmi_gltf_note_core_features(ppmi_gltf_reader *reader)
         count_material(&document->materials[i], counts);
     }
     for (size_t i = 0; i < document->light_count; ++i) {
-        counts[LIGHT_RANGES] += document->lights[i].has_range;
+        counts[LIGHT_RANGES] += document->lights[i].range_m > 0.0;
     }
     counts[ANIMATIONS] = reader->outline.lists[PPMI_GLTF_ANIMATIONS].count;
     counts[SKINS] = reader->outline.lists[PPMI_GLTF_SKINS].count;

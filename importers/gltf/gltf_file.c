@@ -148,6 +148,24 @@ const char *ppmi_gltf_unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span
     return *out_owned;
 }
 
+ppm_status ppmi_gltf_read_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
+                              unsigned char **out_bytes, size_t *out_count, const char **reason)
+{
+    ppm_context *context = reader->context;
+    char *path = NULL;
+    *out_bytes = NULL;
+    *out_count = 0;
+    if (ppmi_gltf_uri_is_data(uri, length)) {
+        return ppmi_gltf_uri_decode_data(context, uri, length, out_bytes, out_count, reason);
+    }
+    ppm_status status = ppmi_gltf_uri_path(
+        context, reader->path, reader->options->allow_outside != 0, uri, length, &path, reason);
+    if (status == PPM_STATUS_OK)
+        status = read_bytes(context, path, 0, out_bytes, out_count, reason);
+    ppmi_free(context, path);
+    return status;
+}
+
 static ppm_status load_from_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
                                 size_t wanted, const char *place, ppmi_gltf_bytes *out)
 {

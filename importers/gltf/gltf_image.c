@@ -145,9 +145,8 @@ ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, si
     return status;
 }
 
-/* 0 when the image cannot be had. */
-static ppm_status use_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
-                            const char *place, ppm_image_id *out_id)
+ppm_status ppmi_gltf_use_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
+                               const char *place, ppm_image_id *out_id)
 {
     *out_id = 0;
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_IMAGES, index, place)) return PPM_STATUS_OK;
@@ -209,7 +208,7 @@ static ppm_status use_sources(ppmi_gltf_reader *reader, const ppmi_gltf_texture 
     for (size_t i = 0; i < 5 && *out_id == 0 && status == PPM_STATUS_OK; ++i) {
         if (sources[i] < 0) continue;
         is_any = true;
-        status = use_image(reader, sources[i], role, place, out_id);
+        status = ppmi_gltf_use_image(reader, sources[i], role, place, out_id);
         if (reader->is_looking_at_textures) break; /* the others only if the first fails */
     }
     if (!is_any) ppmi_gltf_warn(reader, place, "left out: the texture names no image");

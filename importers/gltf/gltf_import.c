@@ -7,6 +7,7 @@
 #include "gltf/gltf_asset.h"
 #include "gltf/gltf_decoded.h"
 #include "gltf/gltf_extensions.h"
+#include "gltf/gltf_light.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_pose.h"
 #include "gltf/gltf_reader.h"
@@ -26,8 +27,10 @@ static ppm_status allocate_tables(ppmi_gltf_reader *r)
     r->empty_meshes =
         ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_MESHES].count + 1, sizeof *r->empty_meshes);
     r->animations = ppmi_alloc_zeroed(r->context, 1, sizeof *r->animations);
-    if (!r->animations || !r->buffers || !r->images || !r->materials || !r->meshes ||
-        !r->empty_meshes) {
+    r->profiles = ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_LIGHT_PROFILES].count + 1,
+                                    sizeof *r->profiles);
+    if (!r->animations || !r->profiles || !r->buffers || !r->images || !r->materials ||
+        !r->meshes || !r->empty_meshes) {
         return ppmi_fail(r->context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", r->path);
     }
     return PPM_STATUS_OK;
@@ -51,9 +54,12 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
                  {PPMI_GLTF_CAMERAS, d->camera_count},
                  {PPMI_GLTF_LIGHTS, d->light_count},
                  {PPMI_GLTF_VARIANTS, d->variant_count},
-
                  {PPMI_GLTF_SKINS, d->skin_count},
-                 {PPMI_GLTF_ANIMATIONS, d->animation_count}};
+                 {PPMI_GLTF_ANIMATIONS, d->animation_count},
+
+                 {PPMI_GLTF_AREA_LIGHTS, d->area_light_count},
+                 {PPMI_GLTF_LIGHT_PROFILES, d->profile_count},
+                 {PPMI_GLTF_IMAGE_LIGHTS, d->image_light_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,
@@ -77,22 +83,6 @@ static ppm_status parse(ppmi_gltf_reader *r)
 
 /* ---- the report ------------------------------------------------------------------------------ */
 
-static void report_light_units(const ppmi_gltf_reader *r)
-{
-    static const char *const readings[] = {
-        [PPM_LIGHT_UNITS_GLTF] = "candela and lux as written",
-        [PPM_LIGHT_UNITS_BLENDER] = "divided by 683 lm/W, as Blender's Cycles shows them",
-        [PPM_LIGHT_UNITS_RAW] = "watts as Blender's raw mode writes them"};
-    const bool is_auto = r->options->light_units == PPM_LIGHT_UNITS_AUTO;
-    const char *why = !is_auto          ? "asked for"
-                      : r->from_blender ? "asset.generator is Blender's exporter"
-                                        : "asset.generator is not Blender's exporter";
-    if (r->tally.punctual_lights == 0) return;
-    ppmi_log(r->context, PPM_LOG_INFO,
-             "%s: %zu punctual lights: %s (%s); --light-units gltf|blender|raw changes it", r->path,
-             r->tally.punctual_lights, readings[ppmi_gltf_light_units(r)], why);
-}
-
 static void report_glass(const ppmi_gltf_reader *r)
 {
     const bool is_auto = r->options->transmission == PPM_TRANSMISSION_POLICY_AUTO;
@@ -114,7 +104,7 @@ static void report_count(const ppmi_gltf_reader *r, size_t count, const char *wh
 static void report(const ppmi_gltf_reader *r)
 {
     const ppmi_gltf_tally *tally = &r->tally;
-    report_light_units(r);
+    ppmi_gltf_report_lights(r);
     report_glass(r);
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
@@ -151,6 +141,7 @@ static void deinit(ppmi_gltf_reader *r)
     }
     ppmi_free(r->context, r->buffers);
     ppmi_free(r->context, r->images);
+    ppmi_free(r->context, r->profiles);
     ppmi_free(r->context, r->materials);
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
@@ -202,6 +193,7 @@ ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
     r->scene = scene;
     ppm_status status = ppmi_gltf_load_images(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_import_environment(r);
     if (status == PPM_STATUS_OK) report(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
     return status;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gltf/gltf_light.h"
 #include "gltf/gltf_scan.h"
 
 #define PI 3.14159265358979323846
@@ -176,19 +177,6 @@ static void add_camera(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int32_t
                      ppmi_gltf_printable(own, strlen(own), name, sizeof name), phrase);
 }
 
-/* The intensity as it is read (docs/light-units.md). */
-static double intensity_as_read(const ppmi_gltf_reader *r, const ppmi_gltf_light *light)
-{
-    const bool is_sun = light->kind == PPMI_GLTF_LIGHT_DIRECTIONAL;
-    switch (ppmi_gltf_light_units(r)) {
-    case PPM_LIGHT_UNITS_BLENDER:
-        return light->intensity / 683.0;
-    case PPM_LIGHT_UNITS_RAW:
-        return is_sun ? light->intensity : light->intensity / (4.0 * PI);
-    }
-    return light->intensity;
-}
-
 static void add_light(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int32_t index)
 {
     static const char *const kinds[] = {[PPMI_GLTF_LIGHT_POINT] = "point",
@@ -199,7 +187,8 @@ static void add_light(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int32_t 
     if (!is_usable(r, PPMI_GLTF_LIGHTS, node->light)) return;
     const ppmi_gltf_light *light = &r->document->lights[node->light];
     const bool is_sun = light->kind == PPMI_GLTF_LIGHT_DIRECTIONAL;
-    append(phrase, "%s, %.4g %s", kinds[light->kind], intensity_as_read(r, light),
+    append(phrase, "%s, %.4g %s", kinds[light->kind],
+           light->intensity * ppmi_gltf_unit_factor(ppmi_gltf_light_units(r), light->kind),
            is_sun ? "lux" : "cd");
     if (light->kind == PPMI_GLTF_LIGHT_SPOT) {
         append(phrase, ", %.1f degrees wide", 2.0 * degrees(light->outer_cone_rad));

@@ -5,6 +5,7 @@
 #include "gltf/gltf_animation.h"
 #include "gltf/gltf_choice.h"
 #include "gltf/gltf_deform.h"
+#include "gltf/gltf_light.h"
 #include "gltf/gltf_matrix.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_pose.h"
@@ -190,9 +191,9 @@ static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index)
         is_due(reader, index, PPMI_GLTF_CAMERAS, node->camera)) {
         status = ppmi_gltf_add_camera(reader, index);
     }
-    if (status == PPM_STATUS_OK && node->light >= 0 && !is_never_seen(reader, index) &&
+    if (status == PPM_STATUS_OK && !is_never_seen(reader, index) &&
         is_due(reader, index, PPMI_GLTF_LIGHTS, node->light)) {
-        status = ppmi_gltf_add_light(reader, index, reader->pose->middle[index]);
+        status = ppmi_gltf_add_lights(reader, index, reader->pose->middle[index]);
     }
     return status;
 }

@@ -1,7 +1,10 @@
 #include "gltf/gltf_placement.h"
 
+#include <string.h>
+
 #include "gltf/gltf_deform.h"
 #include "gltf/gltf_patch.h"
+#include "gltf/gltf_pose.h"
 
 ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
 {
@@ -11,7 +14,8 @@ ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
     if (!p) return ppmi_gltf_out_of_memory(reader, "nodes");
     p->first_instance = ppmi_alloc(reader->context, count + 1, sizeof *p->first_instance);
     p->cameras = ppmi_alloc_zeroed(reader->context, count + 1, sizeof *p->cameras);
-    p->lights = ppmi_alloc_zeroed(reader->context, count + 1, sizeof *p->lights);
+    p->lights =
+        ppmi_alloc_zeroed(reader->context, count + 1, PPMI_GLTF_WAY_COUNT * sizeof *p->lights);
     p->deforms = ppmi_alloc_zeroed(reader->context, count + 1, sizeof(ppmi_gltf_deform *));
     if (!p->first_instance || !p->cameras || !p->lights || !p->deforms) {
         return ppmi_gltf_out_of_memory(reader, "nodes");
@@ -86,9 +90,12 @@ ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node, const pp
     return ppm_scene_add_camera(reader->scene, desc, id);
 }
 
-ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, const ppm_light_desc *desc)
+ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way,
+                               const ppm_light_desc *desc)
 {
-    ppm_light_id *id = &reader->placements->lights[node];
-    if (*id != 0) return ppm_scene_set_light(reader->scene, *id, desc);
-    return ppm_scene_add_light(reader->scene, desc, id);
+    ppm_light_id *id = &reader->placements->lights[(size_t)node * PPMI_GLTF_WAY_COUNT + way];
+    ppm_light_desc light = *desc;
+    if (!reader->pose->is_visible[node]) memset(light.intensity, 0, sizeof light.intensity);
+    if (*id != 0) return ppm_scene_set_light(reader->scene, *id, &light);
+    return ppm_scene_add_light(reader->scene, &light, id);
 }

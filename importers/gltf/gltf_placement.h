@@ -6,10 +6,19 @@
 
 enum { PPMI_GLTF_NO_INSTANCE = -1 };
 
+/* The ways in which a node can carry a light. */
+typedef enum ppmi_gltf_light_way {
+    PPMI_GLTF_WAY_PUNCTUAL,
+    PPMI_GLTF_WAY_AREA,
+    PPMI_GLTF_WAY_IES,
+    PPMI_GLTF_WAY_EXTRAS,
+    PPMI_GLTF_WAY_COUNT
+} ppmi_gltf_light_way;
+
 typedef struct ppmi_gltf_placements {
-    int64_t *first_instance; /* per node, in instances; -1: none yet */
-    ppm_camera_id *cameras;  /* per node; 0: none yet */
-    ppm_light_id *lights;
+    int64_t *first_instance;           /* per node, in instances; -1: none yet */
+    ppm_camera_id *cameras;            /* per node; 0: none yet */
+    ppm_light_id *lights;              /* per node and way */
     struct ppmi_gltf_deform **deforms; /* per node; NULL: none */
     size_t instance_count, instance_capacity;
     ppm_instance_id *instances;
@@ -24,6 +33,8 @@ ppm_status ppmi_gltf_put_instance(ppmi_gltf_reader *reader, int32_t node, size_t
                                   bool is_visible, const ppm_instance_desc *desc);
 ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node,
                                 const ppm_camera_desc *desc);
-ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, const ppm_light_desc *desc);
+/* A light of a node that is not visible gives none. */
+ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way,
+                               const ppm_light_desc *desc);
 
 #endif

@@ -26,10 +26,18 @@ typedef struct ppmi_gltf_image_use {
     ppm_image_id id; /* 0 after a failure */
 } ppmi_gltf_image_use;
 
+/* A light profile, read at its first use. */
+typedef struct ppmi_gltf_profile_use {
+    bool is_tried;
+    ppm_light_profile_id id; /* 0 after a failure */
+    float turn_rad;          /* of the lights that use it, about their axis */
+} ppmi_gltf_profile_use;
+
 /* What is counted and told once, at the end. */
 typedef struct ppmi_gltf_tally {
     size_t instances;
-    size_t punctual_lights;
+    size_t punctual_lights; /* KHR_lights_punctual and lamps whose numbers depend on the units */
+    size_t doubtful_suns;
     size_t broken_counts, no_positions;
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
@@ -55,6 +63,7 @@ struct ppmi_gltf_reader {
     ppmi_gltf_bytes *buffers;         /* one per buffer */
     ppmi_gltf_decoded *decoded;       /* what was compressed; NULL: nothing yet */
     ppmi_gltf_image_use *images;      /* two per image: colour, data */
+    ppmi_gltf_profile_use *profiles;  /* one per light profile */
     ppm_material_id *materials;       /* one per material; 0: not added yet */
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
@@ -87,6 +96,10 @@ ppm_status ppmi_gltf_view_bytes(ppmi_gltf_reader *reader, int32_t view, const ch
 ppm_status ppmi_gltf_buffer_bytes(ppmi_gltf_reader *reader, int32_t buffer, size_t byte_offset,
                                   size_t byte_length, const char *place,
                                   const unsigned char **out_bytes);
+/* The bytes that a URI without escapes names, data or a file of the asset's folder; the caller's.
+ * Returns OK, INPUT_NOT_FOUND, INPUT_INVALID, OUT_OF_MEMORY, unreported, with the reason. */
+ppm_status ppmi_gltf_read_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
+                              unsigned char **out_bytes, size_t *out_count, const char **reason);
 
 /* A URI without JSON escapes. Data URIs are long and have none, as a rule, so it is copied only if
  * need be: *out_owned is then the caller's to free. NULL when memory is out. */
@@ -177,17 +190,17 @@ ppm_status ppmi_gltf_load_images(ppmi_gltf_reader *reader);
  * what cannot be had is left out with a warning. */
 ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, size_t count);
 
+/* gltf_image.c: an image in a role, added at its first use; 0 when it cannot be had. */
+ppm_status ppmi_gltf_use_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
+                               const char *place, ppm_image_id *out_id);
+
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */
 ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,
                                  int32_t role, const char *place, ppm_texture *out_texture);
 
-/* gltf_camera_light.c: adds the camera or light of a node, or changes what has been added. world is
- * its column-major transform. */
+/* gltf_camera.c: adds the camera of a node, or changes what has been added. Lights are in
+ * gltf_light.h. */
 ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node);
-ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
-
-/* The light units in effect, PPM_LIGHT_UNITS_ without AUTO. */
-int32_t ppmi_gltf_light_units(const ppmi_gltf_reader *reader);
 
 #endif

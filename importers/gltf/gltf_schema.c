@@ -109,14 +109,25 @@ static const gltf_field mesh[] = {
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
+/* extras may be anything (specification, 3.4); ours are objects with these members */
+static const gltf_field area_extras[] = {STRING("shape"), NUMBER("radiance"), NUMBER("power_w"),
+                                         NUMBERS("color", 3, 0), END};
+static const gltf_field lamp_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"), END};
+static const gltf_field node_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"),
+                                         OBJECT("ppm_area", area_extras), END};
 static const gltf_field node_light[] = {INDEX("light", GLTF_REQUIRED), END};
 static const gltf_field node_instancing[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field node_visibility[] = {FIELD("visible", GLTF_BOOLEAN), END};
+static const gltf_field node_light_ies[] = {INDEX("light", GLTF_REQUIRED), NUMBER("multiplier"),
+                                            NUMBERS("color", 3, 0), END};
 static const gltf_field node_extensions[] = {
     OBJECT("KHR_lights_punctual", node_light),
+    OBJECT("EXT_lights_area", node_light),
+    OBJECT("EXT_lights_ies", node_light_ies),
     VITAL_OBJECT("EXT_mesh_gpu_instancing", node_instancing, 0),
-    OBJECT("KHR_node_visibility", node_visibility), END};
+    OBJECT("KHR_node_visibility", node_visibility),
+    END};
 static const gltf_field node[] = {
     STRING("name"),
     INDEX("mesh", GLTF_VITAL),
@@ -129,9 +140,12 @@ static const gltf_field node[] = {
     NUMBERS("scale", 3, GLTF_VITAL),
     FIELD("weights", GLTF_NUMBERS, .flags = GLTF_VITAL),
     OBJECT("extensions", node_extensions),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = node_extras),
     END};
+static const gltf_field scene_extensions[] = {OBJECT("EXT_lights_image_based", node_light), END};
 static const gltf_field scene[] = {
-    STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX), END};
+    STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX),
+    OBJECT("extensions", scene_extensions), END};
 
 static const gltf_field skin[] = {
     STRING("name"), INDEX("inverseBindMatrices", GLTF_VITAL),
@@ -180,15 +194,34 @@ static const gltf_field camera[] = {STRING("name"),
                                     VITAL_OBJECT("orthographic", orthographic, 0), END};
 
 static const gltf_field spot[] = {NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END};
-static const gltf_field light[] = {STRING("name"),
-                                   NUMBERS("color", 3, 0),
-                                   NUMBER("intensity"),
-                                   NUMBER("range"),
-                                   FIELD("type", GLTF_STRING,
-                                         .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
-                                         .choices = " point spot directional "),
-                                   VITAL_OBJECT("spot", spot, 0),
-                                   END};
+static const gltf_field light[] = {
+    STRING("name"),
+    NUMBERS("color", 3, 0),
+    NUMBER("intensity"),
+    NUMBER("range"),
+    FIELD("type", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
+          .choices = " point spot directional "),
+    VITAL_OBJECT("spot", spot, 0),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = lamp_extras),
+    END};
+
+/* EXT_lights_area (draft of 2025), EXT_lights_ies, EXT_lights_image_based */
+static const gltf_field rect[] = {NUMBER("aspect"), END};
+static const gltf_field area_light[] = {
+    STRING("name"),
+    NUMBERS("color", 3, 0),
+    NUMBER("intensity"),
+    NUMBER("size"),
+    FIELD("type", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED, .choices = " rect disk "),
+    OBJECT("rect", rect),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = lamp_extras),
+    END};
+static const gltf_field light_profile[] = {
+    STRING("name"), FIELD("uri", GLTF_STRING, .flags = GLTF_VITAL), STRING("mimeType"),
+    INDEX("bufferView", GLTF_VITAL), END};
+static const gltf_field image_light[] = {STRING("name"), NUMBER("intensity"),
+                                         NUMBERS("rotation", 4, 0), NUMBER("specularImageSize"),
+                                         END};
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
@@ -288,10 +321,9 @@ static const gltf_field material[] = {
     END};
 
 static const gltf_field texture_source[] = {INDEX("source", GLTF_REQUIRED), END};
-static const gltf_field texture_extensions[] = {OBJECT("EXT_texture_webp", texture_source),
-                                                OBJECT("EXT_texture_avif", texture_source),
-                                                OBJECT("MSFT_texture_dds", texture_source),
-                                                OBJECT("KHR_texture_basisu", texture_source), END};
+static const gltf_field texture_extensions[] = {
+    OBJECT("EXT_texture_webp", texture_source), OBJECT("EXT_texture_avif", texture_source),
+    OBJECT("MSFT_texture_dds", texture_source), OBJECT("KHR_texture_basisu", texture_source), END};
 static const gltf_field texture[] = {INDEX("sampler", 0), INDEX("source", 0),
                                      OBJECT("extensions", texture_extensions), END};
 static const gltf_field image[] = {STRING("name"), FIELD("uri", GLTF_STRING, .flags = GLTF_VITAL),
@@ -306,12 +338,21 @@ static const gltf_field sampler[] = {INDEX("magFilter", 0), INDEX("minFilter", 0
 
 static const gltf_field punctual[] = {
     LIST("lights", PPMI_GLTF_LIGHTS, 0, light, "{\"type\":\"point\"}"), END};
+static const gltf_field area_lights[] = {
+    LIST("lights", PPMI_GLTF_AREA_LIGHTS, GLTF_KEEPS_EMPTY, area_light, "{\"type\":\"disk\"}"),
+    END};
+static const gltf_field light_profiles[] = {
+    LIST("lights", PPMI_GLTF_LIGHT_PROFILES, GLTF_KEEPS_EMPTY, light_profile, "{\"_\":0}"), END};
+static const gltf_field image_lights[] = {
+    LIST("lights", PPMI_GLTF_IMAGE_LIGHTS, GLTF_KEEPS_EMPTY, image_light, "{\"_\":0}"), END};
 static const gltf_field variant[] = {
     FIELD("name", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field variants[] = {
     LIST("variants", PPMI_GLTF_VARIANTS, 0, variant, "{\"name\":\"\"}"), END};
-static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual),
-                                             OBJECT("KHR_materials_variants", variants), END};
+static const gltf_field root_extensions[] = {
+    OBJECT("KHR_lights_punctual", punctual),    OBJECT("EXT_lights_area", area_lights),
+    OBJECT("EXT_lights_ies", light_profiles),   OBJECT("EXT_lights_image_based", image_lights),
+    OBJECT("KHR_materials_variants", variants), END};
 static const gltf_field asset_xmp[] = {INDEX("packet", 0), END};
 static const gltf_field asset_extensions[] = {OBJECT("KHR_xmp_json_ld", asset_xmp), END};
 static const gltf_field asset[] = {

@@ -38,6 +38,9 @@ struct Document : ppmi_gltf_document {
     std::vector<ppmi_gltf_light> light_items;
     std::vector<ppmi_gltf_skin> skin_items;
     std::vector<ppmi_gltf_animation> animation_items;
+    std::vector<ppmi_gltf_area_light> area_light_items;
+    std::vector<ppmi_gltf_light_profile> profile_items;
+    std::vector<ppmi_gltf_image_light> image_light_items;
     // deques: what is in them stays where it is
     std::deque<std::vector<ppmi_gltf_attribute>> attribute_lists;
     std::deque<std::vector<ppmi_gltf_primitive>> primitive_lists;
@@ -106,6 +109,13 @@ void copy_numbers(const std::vector<double> &from, double *out, size_t count, do
     for (size_t i = 0; i < count; ++i) {
         out[i] = from.size() == count ? from[i] : otherwise;
     }
+}
+
+// The text of a string that lives on in the model; "" for anything else.
+const char *text_or_empty(const Value &object, const char *key)
+{
+    const Value &value = member(object, key);
+    return value.IsString() ? value.Get<std::string>().c_str() : "";
 }
 
 // ---- textures and materials ---------------------------------------------------------------------
@@ -261,10 +271,12 @@ ppmi_gltf_material copy_material(const tinygltf::Material &from)
 
 ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
 {
-    return {from.source, index_or(extension(from.extensions, "EXT_texture_webp"), "source", -1),
+    return {from.source,
+            index_or(extension(from.extensions, "EXT_texture_webp"), "source", -1),
             index_or(extension(from.extensions, "KHR_texture_basisu"), "source", -1),
             index_or(extension(from.extensions, "EXT_texture_avif"), "source", -1),
-            index_or(extension(from.extensions, "MSFT_texture_dds"), "source", -1), from.sampler};
+            index_or(extension(from.extensions, "MSFT_texture_dds"), "source", -1),
+            from.sampler};
 }
 
 // ---- geometry -----------------------------------------------------------------------------------
@@ -467,6 +479,42 @@ void copy_instancing(Document *document, const Value &from, ppmi_gltf_node *out)
                               &out->instance_attribute_count);
 }
 
+// extras of a light or a node that carries one. Blender writes a checkbox as 0 or 1, or as a
+// boolean.
+ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
+{
+    const Value &visible = member(extras, "ppm_visible");
+    ppmi_gltf_lamp_extras out = {number_or(extras, "ppm_radius", -1.0),
+                                 number_or(extras, "ppm_angle", -1.0), -1};
+    if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
+    if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
+    return out;
+}
+
+ppmi_gltf_area_extras copy_area_extras(const Value &area)
+{
+    ppmi_gltf_area_extras out = {};
+    out.is_given = area.IsObject();
+    out.shape = text_or_empty(area, "shape");
+    numbers_or(area, "size", out.size, 2, number_or(area, "size", 0.0));
+    out.radiance = number_or(area, "radiance", -1.0);
+    out.power_w = number_or(area, "power_w", -1.0);
+    numbers_or(area, "color", out.color, 3, 1.0);
+    return out;
+}
+
+void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
+{
+    const Value &ies = extension(from.extensions, "EXT_lights_ies");
+    out->light = index_or(extension(from.extensions, "KHR_lights_punctual"), "light", -1);
+    out->area_light = index_or(extension(from.extensions, "EXT_lights_area"), "light", -1);
+    out->profile = index_or(ies, "light", -1);
+    out->profile_factor = number_or(ies, "multiplier", 1.0);
+    numbers_or(ies, "color", out->profile_color, 3, 1.0);
+    out->lamp = copy_lamp_extras(from.extras);
+    out->area = copy_area_extras(member(from.extras, "ppm_area"));
+}
+
 ppmi_gltf_node copy_node(Document *document, const tinygltf::Node &from)
 {
     ppmi_gltf_node out = {};
@@ -474,7 +522,7 @@ ppmi_gltf_node copy_node(Document *document, const tinygltf::Node &from)
     out.mesh = from.mesh;
     out.camera = from.camera;
     out.skin = from.skin;
-    out.light = index_or(extension(from.extensions, "KHR_lights_punctual"), "light", -1);
+    copy_node_lights(from, &out);
     out.child_count = static_cast<uint32_t>(from.children.size());
     out.children = from.children.data();
     out.has_matrix = from.matrix.size() == 16;
@@ -578,8 +626,70 @@ ppmi_gltf_light copy_light(const tinygltf::Light &from)
     out.intensity = from.intensity;
     out.inner_cone_rad = from.spot.innerConeAngle;
     out.outer_cone_rad = from.spot.outerConeAngle;
-    out.has_range = from.range > 0.0;
+    out.range_m = from.range;
+    out.lamp = copy_lamp_extras(from.extras);
     return out;
+}
+
+ppmi_gltf_area_light copy_area_light(const Value &from)
+{
+    ppmi_gltf_area_light out = {};
+    out.name = text_or_empty(from, "name");
+    out.is_disk = std::string(text_or_empty(from, "type")) == "disk";
+    numbers_or(from, "color", out.color, 3, 1.0);
+    out.intensity = number_or(from, "intensity", 1000.0);
+    out.size = number_or(from, "size", 1.0);
+    out.aspect = number_or(member(from, "rect"), "aspect", 1.0);
+    out.lamp = copy_lamp_extras(member(from, "extras"));
+    return out;
+}
+
+ppmi_gltf_light_profile copy_profile(const Value &from)
+{
+    const Value &uri = member(from, "uri");
+    return {text_or_empty(from, "name"), text_or_empty(from, "uri"),
+            uri.IsString() ? uri.Get<std::string>().size() : 0, index_or(from, "bufferView", -1)};
+}
+
+ppmi_gltf_image_light copy_image_light(const Value &from)
+{
+    ppmi_gltf_image_light out = {};
+    out.name = text_or_empty(from, "name");
+    out.intensity = number_or(from, "intensity", 1.0);
+    out.rotation[3] = 1.0;
+    if (member(from, "rotation").IsArray()) numbers_or(from, "rotation", out.rotation, 4, 0.0);
+    const Value &levels = member(from, "specularImages");
+    const Value none, &faces = levels.IsArray() && levels.ArrayLen() > 0 ? levels.Get(0) : none;
+    out.has_faces = faces.IsArray() && faces.ArrayLen() == 6;
+    for (int i = 0; i < 6; ++i) {
+        const bool is_index = out.has_faces && faces.Get(i).IsInt();
+        out.faces[i] = is_index ? faces.Get(i).GetNumberAsInt() : -1;
+    }
+    const Value &rows = member(from, "irradianceCoefficients");
+    out.has_irradiance = rows.IsArray() && rows.ArrayLen() == 9;
+    for (int i = 0; i < 9 && out.has_irradiance; ++i) {
+        const Value &row = rows.Get(i);
+        out.has_irradiance = row.IsArray() && row.ArrayLen() == 3;
+        for (int k = 0; k < 3 && out.has_irradiance; ++k) {
+            out.has_irradiance = row.Get(k).IsNumber();
+            out.irradiance[i][k] = out.has_irradiance ? row.Get(k).GetNumberAsDouble() : 0.0;
+        }
+    }
+    return out;
+}
+
+// The elements of a root extension's list "lights".
+template <typename To, typename Copy>
+void copy_extension_lights(const tinygltf::Model &model, const char *name, std::vector<To> *items,
+                           const To **out_items, size_t *out_count, Copy copy)
+{
+    const Value &list = member(extension(model.extensions, name), "lights");
+    const size_t count = list.IsArray() ? list.ArrayLen() : 0;
+    for (size_t i = 0; i < count; ++i) {
+        items->push_back(copy(list.Get(i)));
+    }
+    *out_items = items->data();
+    *out_count = items->size();
 }
 
 // ---- the document -------------------------------------------------------------------------------
@@ -626,8 +736,9 @@ void copy_model(Document *d)
     d->default_scene = model.defaultScene;
     copy_all(model.scenes, &d->scene_items, &d->scenes, &d->scene_count,
              [](const tinygltf::Scene &s) {
-                 return ppmi_gltf_scene{s.name.c_str(), static_cast<uint32_t>(s.nodes.size()),
-                                        s.nodes.data()};
+                 return ppmi_gltf_scene{
+                     s.name.c_str(), static_cast<uint32_t>(s.nodes.size()), s.nodes.data(),
+                     index_or(extension(s.extensions, "EXT_lights_image_based"), "light", -1)};
              });
     copy_all(model.nodes, &d->node_items, &d->nodes, &d->node_count,
              [d](const tinygltf::Node &n) { return copy_node(d, n); });
@@ -646,6 +757,12 @@ void copy_model(Document *d)
     copy_all(model.lights, &d->light_items, &d->lights, &d->light_count, copy_light);
     copy_all(model.skins, &d->skin_items, &d->skins, &d->skin_count, copy_skin);
     copy_animations(d);
+    copy_extension_lights(model, "EXT_lights_area", &d->area_light_items, &d->area_lights,
+                          &d->area_light_count, copy_area_light);
+    copy_extension_lights(model, "EXT_lights_ies", &d->profile_items, &d->profiles,
+                          &d->profile_count, copy_profile);
+    copy_extension_lights(model, "EXT_lights_image_based", &d->image_light_items, &d->image_lights,
+                          &d->image_light_count, copy_image_light);
 }
 
 ppm_status load(ppm_context *context, const char *file, const char *text, size_t length,

@@ -89,7 +89,7 @@ typedef struct ppmi_gltf_primitive {
     const ppmi_gltf_attribute *attributes;
     uint32_t target_count;
     const ppmi_gltf_target *targets;
-    bool is_draco;    /* KHR_draco_mesh_compression is given */
+    bool is_draco; /* KHR_draco_mesh_compression is given */
     uint32_t mapping_count;
     const ppmi_gltf_mapping *mappings;
     int32_t draco_view;
@@ -105,9 +105,30 @@ typedef struct ppmi_gltf_mesh {
     const double *weights;
 } ppmi_gltf_mesh;
 
+/* extras of a light, and of the node that carries it; below 0: not said */
+typedef struct ppmi_gltf_lamp_extras {
+    double radius_m;  /* ppm_radius */
+    double angle_rad; /* ppm_angle */
+    int32_t visible;  /* ppm_visible */
+} ppmi_gltf_lamp_extras;
+
+/* extras.ppm_area of a node */
+typedef struct ppmi_gltf_area_extras {
+    bool is_given;
+    const char *shape;        /* "" where it is not said */
+    double size[2];           /* 0: not said */
+    double radiance, power_w; /* below 0: not said */
+    double color[3];
+} ppmi_gltf_area_extras;
+
 typedef struct ppmi_gltf_node {
     const char *name;
     int32_t mesh, camera, skin, light;
+    int32_t area_light; /* EXT_lights_area */
+    int32_t profile;    /* EXT_lights_ies, with multiplier and colour */
+    double profile_factor, profile_color[3];
+    ppmi_gltf_lamp_extras lamp;
+    ppmi_gltf_area_extras area;
     uint32_t child_count;
     const int32_t *children;
     bool has_matrix;
@@ -153,6 +174,7 @@ typedef struct ppmi_gltf_scene {
     const char *name;
     uint32_t node_count;
     const int32_t *nodes;
+    int32_t image_light; /* EXT_lights_image_based */
 } ppmi_gltf_scene;
 
 typedef struct ppmi_gltf_camera {
@@ -170,8 +192,34 @@ typedef struct ppmi_gltf_light {
     double color[3];
     double intensity;
     double inner_cone_rad, outer_cone_rad;
-    bool has_range; /* a distance where it ends is given */
+    double range_m; /* 0: not said */
+    ppmi_gltf_lamp_extras lamp;
 } ppmi_gltf_light;
+
+/* EXT_lights_area */
+typedef struct ppmi_gltf_area_light {
+    const char *name;
+    bool is_disk;
+    double color[3], intensity, size, aspect;
+    ppmi_gltf_lamp_extras lamp;
+} ppmi_gltf_area_light;
+
+/* EXT_lights_ies: a URI, or the index of a buffer view */
+typedef struct ppmi_gltf_light_profile {
+    const char *name, *uri; /* uri "": none */
+    size_t uri_length;
+    int32_t buffer_view;
+} ppmi_gltf_light_profile;
+
+/* EXT_lights_image_based */
+typedef struct ppmi_gltf_image_light {
+    const char *name;
+    double intensity, rotation[4];
+    bool has_faces;
+    int32_t faces[6]; /* images of the sharpest level: +X -X +Y -Y +Z -Z */
+    bool has_irradiance;
+    double irradiance[9][3]; /* spherical harmonics */
+} ppmi_gltf_image_light;
 
 typedef struct ppmi_gltf_texture_info {
     int32_t texture;
@@ -253,7 +301,8 @@ typedef struct ppmi_gltf_document {
     size_t variant_count;
     const char *const *variants; /* their names */
     size_t scene_count, node_count, mesh_count, accessor_count, buffer_view_count, material_count,
-        texture_count, sampler_count, camera_count, light_count, skin_count, animation_count;
+        texture_count, sampler_count, camera_count, light_count, skin_count, animation_count,
+        area_light_count, profile_count, image_light_count;
     const ppmi_gltf_scene *scenes;
     const ppmi_gltf_node *nodes;
     const ppmi_gltf_mesh *meshes;
@@ -266,6 +315,9 @@ typedef struct ppmi_gltf_document {
     const ppmi_gltf_light *lights;
     const ppmi_gltf_skin *skins;
     const ppmi_gltf_animation *animations;
+    const ppmi_gltf_area_light *area_lights;
+    const ppmi_gltf_light_profile *profiles;
+    const ppmi_gltf_image_light *image_lights;
 } ppmi_gltf_document;
 
 /* file is for messages. Returns OK, INPUT_INVALID with tinygltf's text, OUT_OF_MEMORY. */

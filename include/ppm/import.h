@@ -10,7 +10,8 @@ extern "C" {
 
 /* How the numbers of punctual lights are read (docs/light-units.md). */
 enum {
-    PPM_LIGHT_UNITS_AUTO = 0,    /* BLENDER when asset.generator names Khronos' Blender exporter */
+    PPM_LIGHT_UNITS_AUTO = 0,    /* by asset.generator: RAW and BLENDER for older and newer versions
+                                    of Khronos' Blender exporter, else GLTF */
     PPM_LIGHT_UNITS_GLTF = 1,    /* candela and lux as written */
     PPM_LIGHT_UNITS_BLENDER = 2, /* divided by 683 lm/W, to match emissive strength and Cycles */
     PPM_LIGHT_UNITS_RAW = 3      /* Blender's "raw": watts; point and spot divided by 4 pi */

@@ -32,6 +32,7 @@ typedef uint32_t ppm_mesh_id;
 typedef uint32_t ppm_instance_id;
 typedef uint32_t ppm_camera_id;
 typedef uint32_t ppm_light_id;
+typedef uint32_t ppm_light_profile_id;
 
 /* Makes an empty scene. color converts its textures; NULL uses the built-in configuration. The
  * context and color must outlive the scene. Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY. */
@@ -332,20 +333,59 @@ PPM_API float ppm_scene_camera_aspect(const ppm_scene *scene, ppm_camera_id id);
 
 /* ---- lights ---------------------------------------------------------------------------------- */
 
-enum { PPM_LIGHT_POINT = 0, PPM_LIGHT_SPOT = 1, PPM_LIGHT_DIRECTIONAL = 2 };
+/* How a lamp's intensity goes with direction: a table by two angles, as IES files hold it. The
+ * polar angle is counted from the light's local -Z; the azimuth from +X towards +Y. Between the
+ * entries the values are linear in the angles, beyond the last polar angle they are 0. */
+typedef struct ppm_light_profile_desc {
+    uint32_t size;    /* sizeof(ppm_light_profile_desc) */
+    const char *name; /* may be NULL */
+    uint32_t polar_count;
+    uint32_t azimuth_count;
+    const float *polar_rad;   /* polar_count rising angles within 0 .. pi, at least one */
+    const float *azimuth_rad; /* azimuth_count rising angles from 0: one (the same all around), up
+                                 to pi/2 (both planes mirror), up to pi (the XZ plane mirrors) or up
+                                 to 2 pi (all around) */
+    const float *candela;     /* azimuth_count rows of polar_count values, at least 0 */
+} ppm_light_profile_desc;
 
-/* Shines along its local -Z (spot, directional). Scale in the transform is ignored. */
+/* Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_add_light_profile(ppm_scene *scene, const ppm_light_profile_desc *desc,
+                                               ppm_light_profile_id *out_id);
+
+enum {
+    PPM_LIGHT_POINT = 0,
+    PPM_LIGHT_SPOT = 1,
+    PPM_LIGHT_DIRECTIONAL = 2,
+    PPM_LIGHT_RECTANGLE = 3,
+    PPM_LIGHT_DISK = 4 /* or an ellipse */
+};
+
+/* Shines along its local -Z (spot, directional, rectangle, disk). Scale in the transform is
+ * ignored.
+ *
+ * A light with an extent (a point or spot with a radius, a rectangle, a disk) can be seen, in
+ * mirrors and through glass too, casts soft shadows, and stops no ray: what lies behind it is seen
+ * through it, with its light added. */
 typedef struct ppm_light_desc {
     uint32_t size; /* sizeof(ppm_light_desc) */
     const char *name;
     int32_t kind;
     float transform[16];
-    float intensity[3];       /* linear Rec.709: candela (point, spot) or lux (directional) */
+    float intensity[3];       /* linear Rec.709: candela (point, spot), lux (directional) or nit
+                                 (rectangle, disk); with a profile a factor on it */
     float inner_cone_rad;     /* spot: half angle of full intensity */
     float outer_cone_rad;     /* spot: half angle where it ends, <= pi/2 */
     float angular_radius_rad; /* directional: the light comes from a disk in the sky of this radius
                                  and of even radiance, which can be seen; < pi/2. Less than 1e-4 is
                                  taken as 0: parallel light */
+    float
+        radius_m;       /* point, spot: of a ball that sends the same intensity in each direction,
+                           evenly     from all over its outline; less than 1e-6 is taken as 0: a point */
+    float width_m;      /* rectangle, disk: along the local X, > 0 */
+    float height_m;     /* rectangle, disk: along the local Y, > 0 */
+    uint32_t is_hidden; /* non-zero: the camera does not see the light straight ahead, only mirrors
+                           and glass do */
+    ppm_light_profile_id profile; /* point, spot: times the intensity; 0: none */
 } ppm_light_desc;
 
 PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
@@ -369,6 +409,22 @@ typedef struct ppm_environment_desc {
  * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
  * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);
+
+/* Surroundings as the six sides of a cube, each a picture of its side as one sees it from inside.
+ */
+typedef struct ppm_cube_environment_desc {
+    uint32_t size;         /* sizeof(ppm_cube_environment_desc) */
+    ppm_image_id faces[6]; /* square, towards +X -X +Y -Y +Z -Z. Up in the picture is +Y, in that of
+                              +Y it is -Z, in that of -Y +Z */
+    uint32_t is_rgbd;      /* non-zero: colours of 8-bit images with alpha are divided by it */
+    float radiance[3];     /* nit, linear Rec.709; multiplies the images */
+    float rotation[4];     /* turns the cube: a quaternion x y z w of any length; all 0: none */
+} ppm_cube_environment_desc;
+
+/* Sets the environment to a latitude-longitude image made of the cube, with the backdrop that it
+ * had. Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY, WRONG_STATE. */
+PPM_API ppm_status ppm_scene_set_cube_environment(ppm_scene *scene,
+                                                  const ppm_cube_environment_desc *desc);
 
 /* A clear sky with its sun (Preetham, Shirley, Smits 1999), in nit and lux. Fill with
  * ppm_sun_sky_desc_init first. */

@@ -24,24 +24,51 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, cons
     return true;
 }
 
+/* A photon of a point or spot along direction: from its middle, or its ball's surface. */
+static void leave(const ppmi_punctual *light, ppmi_vec3 direction, const float u[4],
+                  ppmi_emission *emission)
+{
+    emission->ray =
+        (ppmi_ray){.origin = light->position, .t_max = INFINITY, .direction = direction};
+    if (light->radius_m > 0.0f) {
+        emission->ray.origin = ppmi_lamp_ball_origin(light, direction, u[0], u[1]);
+    }
+}
+
+/* By the profile, in all directions: what it sends past the scene is its own. */
+static bool emit_profile(const ppmi_lights *lights, const ppmi_punctual *light, const float u[4],
+                         ppmi_emission *emission)
+{
+    ppmi_vec3 local;
+    const float pdf =
+        ppmi_profile_table_sample(&lights->profiles[light->profile - 1], u[2], u[3], &local);
+    const ppmi_vec3 across = vec3_mad(vec3_scale(light->right, local.x), light->up, local.y);
+    const ppmi_vec3 direction = vec3_normalize(vec3_mad(across, light->direction, -local.z));
+    if (!(pdf > 0.0f)) return false;
+    leave(light, direction, u, emission);
+    emission->power =
+        vec3_scale(ppmi_punctual_intensity(lights->scene, light, direction), 1.0f / pdf);
+    return true;
+}
+
 static bool emit_point(const ppmi_lights *lights, const ppmi_punctual *light, const float u[4],
                        ppmi_emission *emission)
 {
-    const float cos_max = ppmi_light_extent_cone(&lights->extent, light->position);
+    if (light->profile > 0) return emit_profile(lights, light, u, emission);
+    const float cos_max = ppmi_light_extent_cone(&lights->extent, light->position, light->radius_m);
     const ppmi_vec3 local = ppmi_sample_cone(cos_max, u[2], u[3]);
     const ppmi_vec3 axis = cos_max > -1.0f
                                ? vec3_normalize(vec3_sub(lights->extent.center, light->position))
                                : vec3(0.0f, 0.0f, 1.0f);
     const ppmi_frame frame = ppmi_frame_from_normal(axis);
-    emission->ray = (ppmi_ray){.origin = light->position,
-                               .t_max = INFINITY,
-                               .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};
+    leave(light, vec3_normalize(ppmi_frame_to_world(&frame, local)), u, emission);
     emission->power = vec3_scale(light->intensity, 2.0f * PPMI_PI * (1.0f - cos_max));
     return true;
 }
 
 /* The falloff is sampled exactly: its integral between the cones grows as the cube of the ramp. */
-static bool emit_spot(const ppmi_punctual *light, const float u[4], ppmi_emission *emission)
+static bool emit_spot(const ppmi_lights *lights, const ppmi_punctual *light, const float u[4],
+                      ppmi_emission *emission)
 {
     const float ramp = (light->cos_inner - light->cos_outer) / 3.0f;
     const float flat = 1.0f - light->cos_inner;
@@ -54,10 +81,10 @@ static bool emit_spot(const ppmi_punctual *light, const float u[4], ppmi_emissio
     }
     const ppmi_frame frame = ppmi_frame_from_normal(light->direction);
     const ppmi_vec3 local = ppmi_direction_at(ppmi_min(cosine, 1.0f), u[3]);
-    emission->ray = (ppmi_ray){.origin = light->position,
-                               .t_max = INFINITY,
-                               .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};
-    emission->power = vec3_scale(light->intensity, ppmi_spot_solid_angle(light));
+    const ppmi_vec3 direction = vec3_normalize(ppmi_frame_to_world(&frame, local));
+    leave(light, direction, u, emission);
+    const float factor = ppmi_punctual_profile(lights->scene, light, direction);
+    emission->power = vec3_scale(light->intensity, factor * ppmi_spot_solid_angle(light));
     return true;
 }
 
@@ -65,10 +92,19 @@ static bool emit_punctual(const ppmi_lights *lights, const ppmi_punctual *light,
                           ppmi_emission *emission)
 {
     if (light->kind == PPM_LIGHT_POINT) return emit_point(lights, light, u, emission);
-    if (light->kind == PPM_LIGHT_SPOT) return emit_spot(light, u, emission);
+    if (light->kind == PPM_LIGHT_SPOT) return emit_spot(lights, light, u, emission);
     emission->ray = ppmi_light_extent_ray(&lights->extent, light->direction, u[0], u[1]);
     emission->power =
         vec3_scale(light->intensity, ppmi_light_extent_shadow(&lights->extent, light->direction));
+    return true;
+}
+
+static bool emit_lamp(const ppmi_lights *lights, const ppmi_lamp *lamp, const float u[4],
+                      ppmi_emission *emission)
+{
+    if (lamp->shape == PPMI_LAMP_BALL) return emit_punctual(lights, lamp->light, u, emission);
+    emission->ray = ppmi_lamp_flat_ray(lamp, u);
+    emission->power = vec3_scale(lamp->light->intensity, PPMI_PI * lamp->area);
     return true;
 }
 
@@ -128,6 +164,8 @@ bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4]
         emitted = emit_triangle(lights, e, u, out_emission);
     } else if (e->kind == PPMI_EMITTER_PUNCTUAL) {
         emitted = emit_punctual(lights, &lights->scene->punctuals[e->triangle], u, out_emission);
+    } else if (e->kind == PPMI_EMITTER_LAMP) {
+        emitted = emit_lamp(lights, &lights->lamps[e->primitive], u, out_emission);
     } else if (e->kind == PPMI_EMITTER_SUN) {
         emit_sun(lights, &lights->suns[e->primitive], u, out_emission);
     } else {

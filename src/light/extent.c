@@ -98,9 +98,9 @@ ppmi_ray ppmi_light_extent_ray(const ppmi_light_extent *extent, ppmi_vec3 direct
         .origin = vec3_add(extent->center, start), .t_max = INFINITY, .direction = direction};
 }
 
-float ppmi_light_extent_cone(const ppmi_light_extent *extent, ppmi_vec3 position)
+float ppmi_light_extent_cone(const ppmi_light_extent *extent, ppmi_vec3 position, float margin)
 {
     const float distance2 = vec3_length2(vec3_sub(extent->center, position));
-    const float radius2 = extent->radius * extent->radius * 1.01f;
+    const float radius2 = ppmi_sqr(extent->radius + margin) * 1.01f;
     return distance2 > radius2 ? sqrtf(1.0f - radius2 / distance2) : -1.0f;
 }

@@ -25,7 +25,7 @@ float ppmi_light_extent_mean_shadow(const ppmi_light_extent *extent);
 ppmi_ray ppmi_light_extent_ray(const ppmi_light_extent *extent, ppmi_vec3 direction, float u,
                                float v);
 
-/* Cosine of the cone from position that holds the ball; -1 from inside of it. */
-float ppmi_light_extent_cone(const ppmi_light_extent *extent, ppmi_vec3 position);
+/* Cosine of the cone from position that holds the ball, enlarged by margin; -1 from inside. */
+float ppmi_light_extent_cone(const ppmi_light_extent *extent, ppmi_vec3 position, float margin);
 
 #endif

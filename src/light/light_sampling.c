@@ -11,14 +11,7 @@ static bool is_surface(ppmi_vec3 n)
 
 /* ---- near lights ----------------------------------------------------------------------------- */
 
-static float spot_falloff(const ppmi_punctual *light, float cosine)
-{
-    const float range = ppmi_max(light->cos_inner - light->cos_outer, 1e-6f);
-    const float x = ppmi_clampf((cosine - light->cos_outer) / range, 0.0f, 1.0f);
-    return x * x;
-}
-
-static bool sample_punctual(const ppmi_punctual *light, ppmi_vec3 position,
+static bool sample_punctual(const ppm_scene *scene, const ppmi_punctual *light, ppmi_vec3 position,
                             ppmi_light_sample *sample)
 {
     sample->is_delta = true;
@@ -33,12 +26,18 @@ static bool sample_punctual(const ppmi_punctual *light, ppmi_vec3 position,
     if (!(distance2 > 0.0f)) return false;
     sample->target = light->position;
     sample->wi = vec3_normalize(to_light);
-    float scale = 1.0f / distance2;
-    if (light->kind == PPM_LIGHT_SPOT) {
-        scale *= spot_falloff(light, -vec3_dot(sample->wi, light->direction));
-    }
-    sample->radiance = vec3_scale(light->intensity, scale);
-    return scale > 0.0f;
+    const ppmi_vec3 intensity = ppmi_punctual_intensity(scene, light, vec3_neg(sample->wi));
+    sample->radiance = vec3_scale(intensity, 1.0f / distance2);
+    return !vec3_is_black(sample->radiance);
+}
+
+static bool sample_lamp(const ppm_scene *scene, const ppmi_lamp *lamp, ppmi_vec3 position, float u,
+                        float v, ppmi_light_sample *sample)
+{
+    sample->pdf *= ppmi_lamp_sample(lamp, position, u, v, &sample->wi, &sample->target);
+    if (!(sample->pdf > 0.0f)) return false;
+    sample->radiance = ppmi_lamp_radiance(scene, lamp, vec3_neg(sample->wi));
+    return !vec3_is_black(sample->radiance);
 }
 
 static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, ppmi_vec3 position,
@@ -133,7 +132,11 @@ static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table,
     sample->pdf *= ppmi_alias_probability(table, i);
     if (!(sample->pdf > 0.0f)) return false;
     if (e->kind == PPMI_EMITTER_PUNCTUAL) {
-        return sample_punctual(&lights->scene->punctuals[e->triangle], position, sample);
+        return sample_punctual(lights->scene, &lights->scene->punctuals[e->triangle], position,
+                               sample);
+    }
+    if (e->kind == PPMI_EMITTER_LAMP) {
+        return sample_lamp(lights->scene, &lights->lamps[e->primitive], position, u, v, sample);
     }
     if (e->kind == PPMI_EMITTER_SUN) {
         return sample_sun(lights, &lights->suns[e->primitive], n, u, v, sample);
@@ -177,6 +180,41 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
     if (!(cosine > 1e-6f) || !(area > 0.0f)) return 0.0f;
     return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * distance *
            distance / (cosine * area);
+}
+
+bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool is_camera,
+                           ppmi_lamp_hit *hit)
+{
+    const float from = hit->t;
+    const uint32_t after = hit->next;
+    uint32_t nearest = PPMI_NO_EMITTER;
+    float nearest_t = ray->t_max;
+    for (uint32_t i = 0; i < lights->lamp_count; i++) {
+        const ppmi_lamp *lamp = &lights->lamps[i];
+        float t;
+        if ((is_camera && lamp->light->is_hidden) || !ppmi_lamp_intersect(lamp, ray, &t)) continue;
+        if (t < from || (t == from && i < after) || !(t < nearest_t)) continue;
+        nearest = i;
+        nearest_t = t;
+    }
+    if (nearest == PPMI_NO_EMITTER) return false;
+    *hit = (ppmi_lamp_hit){.t = nearest_t, .next = nearest + 1, .lamp = nearest};
+    hit->radiance =
+        ppmi_lamp_radiance(lights->scene, &lights->lamps[nearest], vec3_neg(ray->direction));
+    return true;
+}
+
+float ppmi_lights_pdf_lamp(const ppmi_lights *lights, uint32_t lamp, ppmi_vec3 position,
+                           ppmi_vec3 wi, float distance)
+{
+    const ppmi_lamp *of = &lights->lamps[lamp];
+    return lights->class_share * ppmi_alias_probability(&lights->near_lights, of->emitter) *
+           ppmi_lamp_pdf(of, position, wi, distance);
+}
+
+bool ppmi_lights_have_lamps(const ppmi_lights *lights)
+{
+    return lights->lamp_count > 0;
 }
 
 float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)

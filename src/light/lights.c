@@ -46,15 +46,30 @@ static float triangle_power(const ppmi_lights *lights, const ppmi_emitter *e)
     return PPMI_PI * mean * e->area * (float)e->sides;
 }
 
+/* Of a spot with a profile: by the profile's mean, since its peak may lie in the cone. */
+static float spot_power(const ppmi_lights *lights, const ppmi_punctual *light)
+{
+    float factor = 1.0f;
+    if (light->profile > 0) {
+        const ppmi_profile_table *table = &lights->profiles[light->profile - 1];
+        factor = table->flux * (0.25f * PPMI_INV_PI);
+    }
+    return vec3_mean(light->intensity) * factor * ppmi_spot_solid_angle(light);
+}
+
 static float punctual_power(const ppmi_lights *lights, const ppmi_punctual *light)
 {
     const float intensity = vec3_mean(light->intensity);
     switch (light->kind) {
     case PPM_LIGHT_POINT:
+        if (light->profile > 0) return intensity * lights->profiles[light->profile - 1].flux;
         return intensity * 2.0f * PPMI_PI *
-               (1.0f - ppmi_light_extent_cone(&lights->extent, light->position));
+               (1.0f - ppmi_light_extent_cone(&lights->extent, light->position, light->radius_m));
     case PPM_LIGHT_SPOT:
-        return intensity * ppmi_spot_solid_angle(light);
+        return spot_power(lights, light);
+    case PPM_LIGHT_RECTANGLE:
+    case PPM_LIGHT_DISK:
+        return intensity * PPMI_PI * ppmi_lamp_of(light, 0).area;
     default:
         return intensity * ppmi_light_extent_shadow(&lights->extent, light->direction);
     }
@@ -74,6 +89,7 @@ static float emitter_power(const ppmi_lights *lights, const ppmi_emitter *e)
         power = triangle_power(lights, e);
         break;
     case PPMI_EMITTER_PUNCTUAL:
+    case PPMI_EMITTER_LAMP:
     case PPMI_EMITTER_SUN:
         power = punctual_power(lights, &lights->scene->punctuals[e->triangle]);
         break;
@@ -131,6 +147,11 @@ static void add_punctuals(ppmi_lights *lights, bool directional)
             e->kind = PPMI_EMITTER_SUN;
             e->primitive = lights->sun_count;
             lights->suns[lights->sun_count++] = ppmi_sun_of(light);
+        }
+        if (ppmi_punctual_is_lamp(light)) {
+            e->kind = PPMI_EMITTER_LAMP;
+            e->primitive = lights->lamp_count;
+            lights->lamps[lights->lamp_count++] = ppmi_lamp_of(light, lights->count - 1);
         }
     }
 }
@@ -213,11 +234,29 @@ static ppm_status build(ppmi_lights *lights)
         ppmi_alloc(lights->context, scene->instance_count + 1u, sizeof *lights->first_slot);
     lights->first_emitter = ppmi_alloc(lights->context, slots + 1, sizeof *lights->first_emitter);
     lights->suns = ppmi_alloc(lights->context, scene->punctual_count + 1u, sizeof *lights->suns);
-    if (!lights->emitters || !lights->first_slot || !lights->first_emitter || !lights->suns) {
+    lights->lamps = ppmi_alloc(lights->context, scene->punctual_count + 1u, sizeof *lights->lamps);
+    if (!lights->emitters || !lights->first_slot || !lights->first_emitter || !lights->suns ||
+        !lights->lamps) {
         return ppmi_fail(lights->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: lights");
     }
     add_emitters(lights);
     return build_tables(lights);
+}
+
+static ppm_status build_profiles(ppmi_lights *lights)
+{
+    const ppm_scene *scene = lights->scene;
+    lights->profiles =
+        ppmi_alloc_zeroed(lights->context, scene->profile_count + 1u, sizeof *lights->profiles);
+    if (!lights->profiles) {
+        return ppmi_fail(lights->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: lights");
+    }
+    ppm_status status = PPM_STATUS_OK;
+    for (uint32_t i = 0; i < scene->profile_count && status == PPM_STATUS_OK; i++) {
+        status =
+            ppmi_profile_table_init(lights->context, &scene->profiles[i], &lights->profiles[i]);
+    }
+    return status;
 }
 
 ppm_status ppmi_lights_create(ppm_context *context, const ppm_scene *scene,
@@ -230,6 +269,7 @@ ppm_status ppmi_lights_create(ppm_context *context, const ppm_scene *scene,
     lights->extent = ppmi_light_extent_of(scene);
     ppm_status status = ppmi_environment_map_init(context, scene, &lights->environment);
     lights->has_environment = !vec3_is_black(lights->environment.integral);
+    if (status == PPM_STATUS_OK) status = build_profiles(lights);
     if (status == PPM_STATUS_OK) status = build(lights);
     if (status != PPM_STATUS_OK) {
         ppmi_lights_destroy(lights);
@@ -248,6 +288,11 @@ void ppmi_lights_destroy(ppmi_lights *lights)
     ppmi_alias_deinit(context, &lights->near_lights);
     ppmi_alias_deinit(context, &lights->directionals);
     ppmi_free(context, lights->emitters);
+    for (uint32_t i = 0; lights->profiles && i < lights->scene->profile_count; i++) {
+        ppmi_profile_table_deinit(context, &lights->profiles[i]);
+    }
+    ppmi_free(context, lights->profiles);
+    ppmi_free(context, lights->lamps);
     ppmi_free(context, lights->suns);
     ppmi_free(context, lights->first_slot);
     ppmi_free(context, lights->first_emitter);

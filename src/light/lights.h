@@ -40,6 +40,26 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
                               const ppmi_surface *surface, ppmi_vec3 wi, float distance);
 float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi);
 
+/* A light with an extent that a ray meets: they stop no ray, so that one may meet several. */
+typedef struct ppmi_lamp_hit {
+    float t;       /* 0 to begin with */
+    uint32_t next; /* 0 to begin with: what is not met again */
+    uint32_t lamp;
+    ppmi_vec3 radiance; /* towards the ray's origin */
+} ppmi_lamp_hit;
+
+bool ppmi_lights_have_lamps(const ppmi_lights *lights);
+
+/* Goes from hit to the next lamp along the ray (unit direction), within its t_max; false when there
+ * is none. For rays straight from the camera hidden lights are not there. */
+bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool is_camera,
+                           ppmi_lamp_hit *hit);
+
+/* Density with which ppmi_lights_sample, at position, draws that lamp in direction wi, which it is
+ * met in at distance. */
+float ppmi_lights_pdf_lamp(const ppmi_lights *lights, uint32_t lamp, ppmi_vec3 position,
+                           ppmi_vec3 wi, float distance);
+
 /* Radiance from infinitely far in direction wi: the environment's and that of all directional
  * lights whose disk holds wi. */
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi);

@@ -3,6 +3,7 @@
 #define PPMI_LIGHT_TABLES_H
 
 #include "light/extent.h"
+#include "light/lamp.h"
 #include "light/lights.h"
 #include "light/sun.h"
 
@@ -11,12 +12,13 @@
 typedef enum ppmi_emitter_kind {
     PPMI_EMITTER_TRIANGLE,
     PPMI_EMITTER_PUNCTUAL,
+    PPMI_EMITTER_LAMP, /* with an extent */
     PPMI_EMITTER_SUN,
     PPMI_EMITTER_ENVIRONMENT
 } ppmi_emitter_kind;
 
-/* One light. For triangles instance, primitive, triangle; for punctual lights triangle is the index
- * among them, for suns that among the suns. */
+/* One light. For triangles instance, primitive, triangle; for the others triangle is the index
+ * among the punctual lights, primitive that among the suns or lamps. */
 typedef struct ppmi_emitter {
     uint32_t instance, primitive, triangle;
     uint16_t kind; /* ppmi_emitter_kind */
@@ -39,10 +41,13 @@ struct ppmi_lights {
     uint32_t triangle_count, near_count, directional_count;
     ppmi_sun *suns; /* the directional lights that have a size */
     uint32_t sun_count;
-    float class_share;       /* of light samples, for each class that is there */
-    uint32_t *first_slot;    /* per instance: where its primitives start in first_emitter */
-    uint32_t *first_emitter; /* per instance and primitive: emitter of triangle 0, or
-                                PPMI_NO_EMITTER */
+    ppmi_lamp *lamps; /* point, spot and area lights that have an extent */
+    uint32_t lamp_count;
+    ppmi_profile_table *profiles; /* as in the scene */
+    float class_share;            /* of light samples, for each class that is there */
+    uint32_t *first_slot;         /* per instance: where its primitives start in first_emitter */
+    uint32_t *first_emitter;      /* per instance and primitive: emitter of triangle 0, or
+                                     PPMI_NO_EMITTER */
 };
 
 /* The surface at barycentric u, v of an emissive triangle. */
@@ -64,14 +69,6 @@ static inline ppmi_vec3 ppmi_emitter_radiance(const ppmi_lights *lights,
 {
     return vec3_scale(ppmi_surface_emission(lights->scene, surface, wo),
                       ppmi_surface_opacity(lights->scene, surface));
-}
-
-/* Integral of the falloff of a spot over its cone: full inside, squared ramp of the cosine between
- * the cones (KHR_lights_punctual). */
-static inline float ppmi_spot_solid_angle(const ppmi_punctual *light)
-{
-    return 2.0f * PPMI_PI *
-           ((1.0f - light->cos_inner) + (light->cos_inner - light->cos_outer) / 3.0f);
 }
 
 #endif

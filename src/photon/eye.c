@@ -109,13 +109,17 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
         weight = vec3_scale(f, fabsf(ppmi_bsdf_cosine(bsdf, sample.wi)) / pdf);
     }
     ppmi_vec3 throughput = vec3_mul(branch->throughput, weight);
-    const ppmi_origin origin = {.pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
+    const ppmi_origin origin = {
+        .position = at->vertex.surface.position, .pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
     const ppmi_interior interior = walker->interior;
     const float wavelength = walker->wavelength_nm;
     const ppmi_differential differential = walker->differential;
     const ppmi_ray ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput);
     ppmi_vertex next;
+    walker->origin = &origin;
     const ppmi_arrival arrival = ppmi_walk(walker, ray, PPMI_RAY_OTHER, &next);
+    walker->origin = NULL;
+    add(path, throughput, next.lamplight);
     throughput = vec3_mul(throughput, next.transmittance);
     if (arrival == PPMI_AT_SURFACE) {
         add(path, throughput, ppmi_walk_emission(walker, &next, sample.wi, &origin));
@@ -150,7 +154,9 @@ static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const 
     next.throughput = vec3_mul(vec3_mul(branch->throughput, weight), cost);
     next.light_throughput = vec3_mul(vec3_mul(branch->throughput, light_weight), cost);
     next.eta_scale *= sample->eta_scale;
-    next.origin = (ppmi_origin){.is_delta = !is_weighed, .normal = ppmi_bsdf_normal(&at->bsdf)};
+    next.origin = (ppmi_origin){.position = at->vertex.surface.position,
+                                .normal = ppmi_bsdf_normal(&at->bsdf),
+                                .is_delta = !is_weighed};
     if (is_weighed) next.origin.pdf = ppmi_bsdf_pdf(&at->bsdf, sample->wi, PPMI_LOBE_ALL);
     next.interior = walker->interior;
     next.wavelength_nm = walker->wavelength_nm;
@@ -263,14 +269,18 @@ static ppmi_arrival walk(eye_path *path, eye_branch *branch, ppmi_vertex *vertex
 {
     ppmi_walker *walker = path->walker;
     const ppmi_ray_kind kind = branch->depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
+    walker->origin = &branch->origin;
     if (!walker->world->has_scattering || branch->media_splits >= path->settings->media_depth) {
-        return ppmi_walk(walker, branch->ray, kind, vertex);
+        const ppmi_arrival arrival = ppmi_walk(walker, branch->ray, kind, vertex);
+        walker->origin = NULL;
+        return arrival;
     }
     ppmi_vertex scattered[MEDIA_POINTS];
     const uint32_t count = branch->media_splits == 0 ? MEDIA_POINTS : 1;
     const ppmi_interior before = walker->interior;
     const ppmi_arrival arrival =
         ppmi_walk_both_ways(walker, branch->ray, kind, vertex, scattered, count);
+    walker->origin = NULL;
     const ppmi_interior after = walker->interior;
     walker->interior = before;
     for (uint32_t i = 0; i < count; i++) {
@@ -287,6 +297,7 @@ static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
     ppmi_walker *walker = path->walker;
     const ppmi_arrival arrival = walk(path, branch, &at->vertex);
     const ppmi_vec3 transmittance = at->vertex.transmittance;
+    add(path, branch->light_throughput, at->vertex.lamplight);
     branch->throughput = vec3_mul(branch->throughput, transmittance);
     branch->light_throughput = vec3_mul(branch->light_throughput, transmittance);
     if (arrival == PPMI_ESCAPED) {

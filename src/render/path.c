@@ -63,7 +63,10 @@ static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_dept
     for (uint32_t depth = 0; depth < max_depth; depth++) {
         ppmi_vertex vertex;
         const ppmi_ray_kind kind = depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
+        walker->origin = &origin;
         const ppmi_arrival arrival = ppmi_walk(walker, ray, kind, &vertex);
+        walker->origin = NULL;
+        radiance = vec3_add(radiance, vec3_mul(throughput, vertex.lamplight));
         throughput = vec3_mul(throughput, vertex.transmittance);
         if (arrival == PPMI_ESCAPED) {
             const ppmi_vec3 light = sky(walker, ray.direction, depth, &origin);
@@ -88,8 +91,10 @@ static ppmi_vec3 trace_path(ppmi_walker *walker, ppmi_ray ray, uint32_t max_dept
         }
         throughput = vec3_mul(throughput, sample.weight);
         eta_scale *= sample.eta_scale;
-        origin = (ppmi_origin){
-            .pdf = sample.pdf, .normal = ppmi_bsdf_normal(&bsdf), .is_delta = sample.is_delta};
+        origin = (ppmi_origin){.position = vertex.surface.position,
+                               .pdf = sample.pdf,
+                               .normal = ppmi_bsdf_normal(&bsdf),
+                               .is_delta = sample.is_delta};
         ray = ppmi_walk_leave(walker, &vertex, &sample, &throughput);
     }
     return radiance;

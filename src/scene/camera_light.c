@@ -1,4 +1,4 @@
-/* Cameras and punctual lights: checked and turned into unit vectors. */
+/* Cameras: checked and turned into unit vectors. */
 #include "scene/scene.h"
 
 static ppm_status fail_memory(ppm_scene *scene)
@@ -169,75 +169,4 @@ ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect, ppm_came
         .aspect = aspect,
     };
     return ppm_scene_add_camera(scene, &desc, out_id);
-}
-
-/* Smaller disks could not be told from their middle in single precision. */
-static const float least_angular_radius = 1e-4f;
-
-static bool light_is_valid(const ppm_light_desc *desc)
-{
-    for (uint32_t i = 0; i < 3; i++) {
-        if (!(desc->intensity[i] >= 0.0f && desc->intensity[i] < 1e18f)) return false;
-    }
-    if (desc->kind == PPM_LIGHT_DIRECTIONAL) {
-        return desc->angular_radius_rad >= 0.0f && desc->angular_radius_rad < 0.5f * PPMI_PI;
-    }
-    if (desc->kind != PPM_LIGHT_SPOT) return desc->kind == PPM_LIGHT_POINT;
-    return desc->inner_cone_rad >= 0.0f && desc->outer_cone_rad > 0.0f &&
-           desc->inner_cone_rad <= desc->outer_cone_rad &&
-           desc->outer_cone_rad <= 0.5f * PPMI_PI + 1e-5f;
-}
-
-ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm_light_id *out_id)
-{
-    const ppm_status status = ppmi_scene_check_open(scene);
-    if (status != PPM_STATUS_OK) return status;
-    if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
-    const char *name = desc->name ? desc->name : "";
-    const ppmi_transform to_world = ppmi_transform_load(desc->transform);
-    ppmi_vec3 right, up, back;
-    if (!light_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
-        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "light '%s': intensity, angles or transform out of range", name);
-    }
-    ppmi_punctual *punctuals =
-        ppmi_scene_grow(scene->context, scene->punctuals, scene->punctual_count, sizeof *punctuals);
-    if (!punctuals) return PPM_STATUS_OUT_OF_MEMORY;
-    scene->punctuals = punctuals;
-    char *name_copy = ppmi_string_copy(scene->context, name);
-    if (!name_copy) return fail_memory(scene);
-    const bool has_disk =
-        desc->kind == PPM_LIGHT_DIRECTIONAL && desc->angular_radius_rad >= least_angular_radius;
-    punctuals[scene->punctual_count] = (ppmi_punctual){
-        .name = name_copy,
-        .kind = desc->kind,
-        .position = to_world.origin,
-        .given_position = to_world.origin,
-        .direction = vec3_neg(back),
-        .intensity = vec3_load(desc->intensity),
-        .cos_inner = cosf(desc->inner_cone_rad),
-        .cos_outer = cosf(desc->outer_cone_rad),
-        .angular_radius_rad = has_disk ? desc->angular_radius_rad : 0.0f,
-    };
-    *out_id = ++scene->punctual_count;
-    return PPM_STATUS_OK;
-}
-
-/* Made and checked as an added one, which then takes the old one's place. */
-ppm_status ppm_scene_set_light(ppm_scene *scene, ppm_light_id id, const ppm_light_desc *desc)
-{
-    ppm_status status = ppmi_scene_check_open(scene);
-    if (status != PPM_STATUS_OK) return status;
-    if (id == 0 || id > scene->punctual_count) {
-        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT, "light %u of %u", id,
-                         scene->punctual_count);
-    }
-    ppm_light_id added;
-    status = ppm_scene_add_light(scene, desc, &added);
-    if (status != PPM_STATUS_OK) return status;
-    ppmi_punctual *last = &scene->punctuals[--scene->punctual_count];
-    ppmi_free(scene->context, last->name);
-    last->name = scene->punctuals[id - 1].name;
-    scene->punctuals[id - 1] = *last;
-    return PPM_STATUS_OK;
 }

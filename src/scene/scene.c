@@ -81,6 +81,13 @@ void ppm_scene_destroy(ppm_scene *scene)
     for (uint32_t i = 0; i < scene->punctual_count; i++) {
         ppmi_free(context, scene->punctuals[i].name);
     }
+    for (uint32_t i = 0; i < scene->profile_count; i++) {
+        ppmi_free(context, scene->profiles[i].name);
+        ppmi_free(context, scene->profiles[i].polar_rad);
+        ppmi_free(context, scene->profiles[i].azimuth_rad);
+        ppmi_free(context, scene->profiles[i].candela);
+    }
+    ppmi_free(context, scene->profiles);
     ppmi_free(context, scene->images);
     ppmi_free(context, scene->materials);
     ppmi_free(context, scene->meshes);

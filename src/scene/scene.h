@@ -127,9 +127,21 @@ typedef struct ppmi_punctual {
     ppmi_vec3 position, direction; /* direction: where it shines, unit */
     ppmi_vec3 given_position;
     ppmi_vec3 intensity;
-    float cos_inner, cos_outer; /* spot */
-    float angular_radius_rad;   /* directional; 0: parallel light */
+    float cos_inner, cos_outer;        /* spot */
+    float angular_radius_rad;          /* directional; 0: parallel light */
+    ppmi_vec3 right, up;               /* local X and Y, unit */
+    float radius_m;                    /* point, spot; 0: a point */
+    float half_width_m, half_height_m; /* rectangle, disk */
+    bool is_hidden;                    /* from the camera */
+    uint32_t profile;                  /* index + 1; 0: none */
 } ppmi_punctual;
+
+/* As in ppm_light_profile_desc. */
+typedef struct ppmi_light_profile {
+    char *name;
+    uint32_t polar_count, azimuth_count;
+    float *polar_rad, *azimuth_rad, *candela;
+} ppmi_light_profile;
 
 typedef struct ppmi_environment {
     bool is_set;
@@ -144,12 +156,14 @@ struct ppm_scene {
     ppm_context *context;
     float srgb_to_linear[256];
     uint32_t image_count, material_count, mesh_count, instance_count, camera_count, punctual_count;
+    uint32_t profile_count;
     ppmi_image *images;
     ppmi_material *materials;
     ppmi_mesh *meshes;
     ppmi_instance *instances;
     ppmi_camera *cameras;
     ppmi_punctual *punctuals;
+    ppmi_light_profile *profiles;
     ppmi_environment environment;
     bool environment_is_assumed; /* for the time of a session: see ppmi_scene_thaw */
     ppmi_medium fog;

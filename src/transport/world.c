@@ -122,23 +122,60 @@ static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, 
     return false;
 }
 
+/* Adds what a lamp sends along the ray that meets it, at distance from where the path comes from.
+ */
+static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_lamp_hit *lamp,
+                     ppmi_vertex *vertex)
+{
+    const ppmi_origin *origin = walker->origin;
+    float weight = 1.0f;
+    if (!origin->is_delta) {
+        const float light_pdf = ppmi_lights_pdf_lamp(
+            walker->world->lights, lamp->lamp, origin->position, ray->direction, vertex->distance);
+        weight = ppmi_mis_weight(origin->pdf, light_pdf);
+    }
+    const ppmi_vec3 light = vec3_scale(vec3_mul(vertex->transmittance, lamp->radiance), weight);
+    vertex->lamplight = vec3_add(vertex->lamplight, light);
+}
+
+/* Takes an eye path past the lamps before a hit (at ray->t_max; infinite: none), and the ray with
+ * it. False where a medium scatters it on the way. */
+static bool pass_lamps(ppmi_walker *walker, ppmi_ray *ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
+                       scatter_choice *choice)
+{
+    const ppmi_ray whole = *ray;
+    ppmi_lamp_hit lamp = {.t = 0.0f};
+    float passed = 0.0f;
+    while (ppmi_lights_next_lamp(walker->world->lights, &whole, kind == PPMI_RAY_CAMERA, &lamp)) {
+        const float way = lamp.t - passed;
+        if (!cross_medium(walker, ray, way, vertex, choice)) return false;
+        passed = lamp.t;
+        vertex->distance += way;
+        ray->origin = vec3_mad(whole.origin, whole.direction, passed);
+        ray->t_max = whole.t_max - passed;
+        add_lamp(walker, ray, &lamp, vertex);
+    }
+    return true;
+}
+
 static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
                            ppmi_vertex *vertex, scatter_choice *choice)
 {
     vertex->medium = NULL;
     vertex->distance = 0.0f;
     vertex->transmittance = vec3_splat(1.0f);
+    vertex->lamplight = vec3_splat(0.0f);
     vertex->relative_index = vertex->drawn_wavelength = 0.0f;
+    const bool sees_lamps = walker->origin && ppmi_lights_have_lamps(walker->world->lights);
     for (int i = 0; i < MAX_SURFACES_PASSED; i++) {
         const bool is_hit = trace(walker, &ray, vertex);
-        const float t = vertex->hit.t;
+        ray.t_max = is_hit ? vertex->hit.t : INFINITY;
         const bool is_solid = is_hit && vertex->surface.material->is_solid_glass;
         const bool is_seen = !is_solid || ppmi_solid_arrive(walker, ray.direction, vertex);
-        if (!cross_medium(walker, &ray, is_hit ? t : INFINITY, vertex, choice)) {
-            return PPMI_IN_MEDIUM;
-        }
+        if (sees_lamps && !pass_lamps(walker, &ray, kind, vertex, choice)) return PPMI_IN_MEDIUM;
+        if (!cross_medium(walker, &ray, ray.t_max, vertex, choice)) return PPMI_IN_MEDIUM;
         if (!is_hit) return PPMI_ESCAPED;
-        vertex->distance += t;
+        vertex->distance += ray.t_max;
         if (!is_seen) {
             walker->interior = vertex->behind;
         } else if (!passes_through(walker, vertex, ray.direction, kind)) {

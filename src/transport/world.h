@@ -47,10 +47,12 @@ typedef struct ppmi_walker {
     uint32_t used;         /* of the current set */
     ppmi_sample4 sample;
 
-    ppmi_interior interior;         /* where the path is now */
-    float wavelength_nm;            /* of a path that dispersion has split; 0: all of them */
-    float time;                     /* within the shutter, 0 .. 1 */
-    ppmi_differential differential; /* of the path's last ray; unknown for photons */
+    ppmi_interior interior;           /* where the path is now */
+    float wavelength_nm;              /* of a path that dispersion has split; 0: all of them */
+    float time;                       /* within the shutter, 0 .. 1 */
+    const struct ppmi_origin *origin; /* of the next segments of an eye path, which then sees lights
+                                         with an extent on the way; NULL: photons and probes */
+    ppmi_differential differential;   /* of the path's last ray; unknown for photons */
 } ppmi_walker;
 
 /* Starts a path, outside of all solids: index counts paths of the stream, stratified_index those
@@ -69,6 +71,7 @@ static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t
     walker->wavelength_nm = 0.0f;
     walker->time = 0.0f;
     walker->differential.is_known = false;
+    walker->origin = NULL;
 }
 
 static inline uint32_t ppmi_walker_u32(ppmi_walker *walker)
@@ -100,6 +103,8 @@ typedef struct ppmi_vertex {
     float distance;            /* from the ray's origin, along all segments through alpha */
     ppmi_vec3 transmittance;   /* of the media on the way, over the probability of coming this far
                                   where they scatter */
+    ppmi_vec3 lamplight;       /* of lights with an extent that were met on the way, by an eye path;
+                                  weighed by MIS, transmittance included */
 
     /* at solids */
     float relative_index;   /* beyond the surface by this side, at the path's wavelength */
@@ -151,6 +156,7 @@ ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
 
 /* Where a path comes from, for the MIS weight of emission that it meets. */
 typedef struct ppmi_origin {
+    ppmi_vec3 position;
     float pdf;        /* by solid angle of its direction; irrelevant if is_delta */
     ppmi_vec3 normal; /* shading normal there; 0 in a medium */
     bool is_delta;    /* camera, mirror or smooth glass: light sampling cannot do it */

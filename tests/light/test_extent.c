@@ -214,9 +214,9 @@ static void the_cone_from_outside_holds_the_ball(void **state)
     const ppmi_vec3 from = vec3(10, 3, -2);
     const float distance = vec3_length(vec3_sub(from, extent.center));
     const float exact = sqrtf(1.0f - ppmi_sqr(extent.radius / distance));
-    assert_true(ppmi_light_extent_cone(&extent, from) < exact);
-    assert_near(ppmi_light_extent_cone(&extent, from), exact, 1e-3);
-    assert_near(ppmi_light_extent_cone(&extent, extent.center), -1.0, 0.0);
+    assert_true(ppmi_light_extent_cone(&extent, from, 0.0f) < exact);
+    assert_near(ppmi_light_extent_cone(&extent, from, 0.0f), exact, 1e-3);
+    assert_near(ppmi_light_extent_cone(&extent, extent.center, 0.0f), -1.0, 0.0);
 }
 
 int main(void)

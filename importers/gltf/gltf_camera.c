@@ -1,0 +1,53 @@
+/* Cameras. One that is invalid is left out with a warning: the rest of the scene can be shown. */
+#include <math.h>
+#include <string.h>
+
+#include "gltf/gltf_placement.h"
+#include "gltf/gltf_pose.h"
+#include "gltf/gltf_rigid.h"
+
+#define PI 3.14159265358979323846
+
+static const char *camera_fault(const ppmi_gltf_camera *camera)
+{
+    if (camera->is_orthographic) {
+        const bool ok = fabs(camera->x_mag) > 1e-30 && fabs(camera->y_mag) > 1e-30;
+        return ok ? NULL : "xmag and ymag must not be 0";
+    }
+    if (!(camera->y_fov_rad > 0.0 && camera->y_fov_rad < PI)) return "yfov must be in 0 .. pi";
+    return camera->aspect < 0.0 ? "aspectRatio must be above 0" : NULL;
+}
+
+ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
+{
+    const ppmi_gltf_node *from = &reader->document->nodes[node];
+    const uint32_t steps = reader->pose->node_steps[node];
+    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
+    float motion[16 * PPM_MAX_MOTION_STEPS];
+    ppmi_gltf_place(place, "nodes[%d].camera", (int)node);
+    if (!ppmi_gltf_accept(reader, PPMI_GLTF_CAMERAS, from->camera, place)) return PPM_STATUS_OK;
+    const ppmi_gltf_camera *camera = &reader->document->cameras[from->camera];
+    ppm_camera_desc desc = {
+        .size = sizeof desc,
+        .name = ppmi_gltf_choose_name(camera->name, from->name, name, sizeof name),
+        .kind = camera->is_orthographic ? PPM_CAMERA_ORTHOGRAPHIC : PPM_CAMERA_PERSPECTIVE,
+        .y_fov_rad = (float)camera->y_fov_rad,
+        .half_width_m = (float)fabs(camera->x_mag),
+        .half_height_m = (float)fabs(camera->y_mag),
+        .aspect = (float)camera->aspect};
+    const char *fault = camera_fault(camera);
+    for (uint32_t i = 0; i < steps && !fault; ++i) {
+        fault = ppmi_gltf_rigid_transform(ppmi_gltf_pose_world(reader->pose, node, i, steps), true,
+                                          motion + 16 * (size_t)i);
+    }
+    if (fault) {
+        ppmi_gltf_warn(reader, place, "left out: cameras[%d]: %s", (int)from->camera, fault);
+        return PPM_STATUS_OK;
+    }
+    memcpy(desc.transform, motion, sizeof desc.transform);
+    if (steps > 1) {
+        desc.motion_steps = steps;
+        desc.motion = motion;
+    }
+    return ppmi_gltf_put_camera(reader, node, &desc);
+}
