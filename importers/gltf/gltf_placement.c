@@ -99,3 +99,12 @@ ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf
     if (*id != 0) return ppm_scene_set_light(reader->scene, *id, &light);
     return ppm_scene_add_light(reader->scene, &light, id);
 }
+
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way)
+{
+    const ppm_light_desc dark = {.size = sizeof dark,
+                                 .kind = PPM_LIGHT_POINT,
+                                 .transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f}};
+    const ppm_light_id id = reader->placements->lights[(size_t)node * PPMI_GLTF_WAY_COUNT + way];
+    return id != 0 ? ppm_scene_set_light(reader->scene, id, &dark) : PPM_STATUS_OK;
+}

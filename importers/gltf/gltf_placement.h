@@ -36,5 +36,8 @@ ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node,
 /* A light of a node that is not visible gives none. */
 ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way,
                                const ppm_light_desc *desc);
+/* Of a light that cannot be as it is now: takes the light of the pose before away, if there is one.
+ */
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way);
 
 #endif
