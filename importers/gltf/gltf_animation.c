@@ -70,6 +70,8 @@ static ppm_status add_binding(binder *b, const ppmi_gltf_property *property, int
 static void ignore(binder *b, const char *why, const char *name)
 {
     char shown[PPMI_GLTF_PLACE];
+    ppmi_gltf_note_feature(b->reader, "animations", PPM_FEATURE_APPROXIMATED,
+                           "channels that change nothing that is shown are left out");
     if (++b->ignored > MAX_IGNORED) return;
     ppmi_gltf_warn(b->reader, b->place, "left out: %s '%s'%s", why,
                    ppmi_gltf_printable(name, strlen(name), shown, sizeof shown),

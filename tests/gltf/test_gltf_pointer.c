@@ -20,7 +20,12 @@ static const char one_of_everything[] =
     "//8/AAX+Av4N70a4AAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
     "'materials':[{'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],"
     "'baseColorTexture':{'index':0}},'extensions':{'KHR_materials_ior':{'ior':1.4},"
-    "'KHR_materials_transmission':{'transmissionFactor':0.5}}}],"
+    "'KHR_materials_transmission':{'transmissionFactor':0.5},"
+    "'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatTexture':{'index':0}},"
+    "'KHR_materials_sheen':{'sheenColorFactor':[0,0,0]},"
+    "'KHR_materials_anisotropy':{'anisotropyStrength':0.5},"
+    "'KHR_materials_iridescence':{'iridescenceFactor':1},"
+    "'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.1}}}],"
     "'nodes':[{'children':[1,2,3,4],'mesh':0},{'camera':0},"
     "{'extensions':{'KHR_lights_punctual':{'light':0}}},"
     "{'mesh':0,'extensions':{'KHR_node_visibility':{'visible':false}}},{'camera':1}],";
@@ -78,6 +83,30 @@ static float u_offset(const gltf_fixture *f)
 static float u_from_v(const gltf_fixture *f)
 {
     return material(f)->base_color_texture.uv_transform[1];
+}
+static float clearcoat(const gltf_fixture *f)
+{
+    return material(f)->clearcoat;
+}
+static float clearcoat_u(const gltf_fixture *f)
+{
+    return material(f)->clearcoat_texture.uv_transform[2];
+}
+static float sheen(const gltf_fixture *f)
+{
+    return material(f)->sheen_color[0];
+}
+static float anisotropy_rotation(const gltf_fixture *f)
+{
+    return material(f)->anisotropy_rotation_rad;
+}
+static float film_thickness(const gltf_fixture *f)
+{
+    return material(f)->iridescence_thickness_max_nm;
+}
+static float diffuse_transmission(const gltf_fixture *f)
+{
+    return material(f)->diffuse_transmission;
 }
 static float light_intensity(const gltf_fixture *f)
 {
@@ -153,6 +182,55 @@ static const struct {
      u_from_v,
      0,
      1},
+    {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor",
+     "SCALAR",
+     1,
+     {0},
+     {1},
+     clearcoat,
+     0,
+     0.5f},
+    {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatTexture/extensions/"
+     "KHR_texture_transform/offset",
+     "VEC2",
+     2,
+     {0, 0},
+     {4, 0},
+     clearcoat_u,
+     0,
+     2},
+    {"/materials/0/extensions/KHR_materials_sheen/sheenColorFactor",
+     "VEC3",
+     3,
+     {0, 0, 0},
+     {1, 0, 0},
+     sheen,
+     0,
+     0.5f},
+    {"/materials/0/extensions/KHR_materials_anisotropy/anisotropyRotation",
+     "SCALAR",
+     1,
+     {0},
+     {1},
+     anisotropy_rotation,
+     0,
+     0.5f},
+    {"/materials/0/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum",
+     "SCALAR",
+     1,
+     {200},
+     {400},
+     film_thickness,
+     200,
+     300},
+    {"/materials/0/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor",
+     "SCALAR",
+     1,
+     {0},
+     {1},
+     diffuse_transmission,
+     0,
+     0.5f},
     {"/extensions/KHR_lights_punctual/lights/0/intensity",
      "SCALAR",
      1,
