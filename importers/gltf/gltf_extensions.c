@@ -72,16 +72,20 @@ static ppm_status refuse(ppmi_gltf_reader *reader, size_t index, const char *sho
                      shown, row < ROW_COUNT ? ": " : "", row < ROW_COUNT ? rows[row].note : "");
 }
 
+void ppmi_gltf_note_extension(ppmi_gltf_reader *reader, const char *name)
+{
+    char shown[128];
+    const size_t row = find_row(name);
+    ppmi_gltf_printable(name, strlen(name), shown, sizeof shown);
+    ppmi_gltf_note_feature(reader, shown, row < ROW_COUNT ? rows[row].verdict : PPM_FEATURE_IGNORED,
+                           row < ROW_COUNT ? rows[row].note : "the extension is not known");
+}
+
 /* One line for each of a list; the report drops those that come twice. */
 static void note(ppmi_gltf_reader *reader, const char *const *names, size_t count)
 {
-    char shown[128];
     for (size_t i = 0; i < count && i < MAX_LISTED; ++i) {
-        const size_t row = find_row(names[i]);
-        ppmi_gltf_printable(names[i], strlen(names[i]), shown, sizeof shown);
-        ppmi_gltf_note_feature(reader, shown,
-                               row < ROW_COUNT ? rows[row].verdict : PPM_FEATURE_IGNORED,
-                               row < ROW_COUNT ? rows[row].note : "the extension is not known");
+        ppmi_gltf_note_extension(reader, names[i]);
     }
     if (count > MAX_LISTED) {
         ppmi_gltf_note_feature(reader, "further extensions", PPM_FEATURE_IGNORED,

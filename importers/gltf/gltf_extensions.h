@@ -8,6 +8,10 @@
  * is not read. */
 ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader);
 
+/* Notes one extension, with its verdict and note from the table; for those that are used without
+ * being listed. */
+void ppmi_gltf_note_extension(ppmi_gltf_reader *reader, const char *name);
+
 /* gltf_features.c: notes skins, animations, vertex colours and the like. */
 void ppmi_gltf_note_core_features(ppmi_gltf_reader *reader);
 

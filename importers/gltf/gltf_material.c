@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_extensions.h"
 #include "gltf/gltf_material.h"
 
 typedef ppmi_gltf_conversion conversion;
@@ -135,9 +136,7 @@ static void convert_unlit(conversion *c)
     desc->metallic_roughness_texture = (ppm_texture){0};
     desc->normal_texture = (ppm_texture){0};
     desc->specular = 0.0f;
-    ppmi_gltf_note_feature(c->reader, "KHR_materials_unlit", PPM_FEATURE_APPROXIMATED,
-                           "such a material shines with its base colour, 1 nit for white, and "
-                           "reflects nothing");
+    ppmi_gltf_note_extension(c->reader, "KHR_materials_unlit");
 }
 
 /* The extensions exclude each other where they are not called for one material. */

@@ -21,26 +21,32 @@ const ppmi_gltf_feature *ppmi_gltf_find_feature(const ppmi_gltf_reader *reader, 
     return find(&reader->report, name);
 }
 
-/* A new line, without note. NULL when memory is out. */
+/* A new line. NULL when memory is out. */
 static ppmi_gltf_feature *add(ppm_context *context, ppmi_gltf_report *report, const char *name)
 {
     ppmi_gltf_feature *items =
         ppmi_gltf_grow(context, report->items, report->count, &report->capacity, sizeof *items);
     if (!items) return NULL;
     report->items = items;
-    char *copy = ppmi_string_copy(context, name);
-    if (!copy) return NULL;
-    ppmi_gltf_feature *added = &items[report->count++];
-    *added = (ppmi_gltf_feature){.name = copy, .verdict = PPM_FEATURE_HONOURED};
-    return added;
+    ppmi_gltf_feature *added = &items[report->count];
+    *added = (ppmi_gltf_feature){.name = ppmi_string_copy(context, name),
+                                 .note = ppmi_string_copy(context, ""),
+                                 .verdict = PPM_FEATURE_HONOURED};
+    if (added->name && added->note) {
+        report->count++;
+        return added;
+    }
+    ppmi_free(context, added->name);
+    ppmi_free(context, added->note);
+    return NULL;
 }
 
 void ppmi_gltf_note_feature(ppmi_gltf_reader *reader, const char *name, int32_t verdict,
                             const char *note)
 {
     ppmi_gltf_report *report = &reader->report;
-    ppmi_gltf_feature *feature = find(report, name);
     if (!reader->context) return; /* a reader that is silent for a while */
+    ppmi_gltf_feature *feature = find(report, name);
     if (feature && feature->verdict > verdict) return;
     if (!feature) feature = add(reader->context, report, name);
     char *copy = feature ? ppmi_string_copy(reader->context, note) : NULL;

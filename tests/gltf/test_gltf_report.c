@@ -73,11 +73,15 @@ static void many_ignored_features_are_cut_in_the_error_but_all_logged(void **sta
 static void a_lost_note_is_an_error(void **state)
 {
     gltf_fixture *f = *state;
-    for (size_t n = 1; n <= 3; ++n) { /* the table, the name, the note */
+    for (size_t n = 1; n <= 4; ++n) { /* the table, the name, no note, the note */
         ppmi_gltf_reader reader = bare_reader(f);
         ppmi_alloc_fail_at(f->context, n);
         ppmi_gltf_note_feature(&reader, "a", PPM_FEATURE_IGNORED, "b");
         ppmi_alloc_fail_at(f->context, 0);
+        for (size_t i = 0; i < reader.report.count; ++i) { /* whoever reads it finds text */
+            assert_non_null(reader.report.items[i].name);
+            assert_non_null(reader.report.items[i].note);
+        }
         assert_int_equal(ppmi_gltf_report_finish(&reader), PPM_STATUS_OUT_OF_MEMORY);
         ppmi_gltf_report_deinit(f->context, &reader.report);
     }
