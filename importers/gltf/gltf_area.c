@@ -33,7 +33,7 @@ static ppm_status add(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_wa
     if (!fault) fault = ppmi_gltf_rigid_transform(world, true, desc->transform);
     if (fault) {
         ppmi_gltf_warn(reader, place, "left out: %s", fault);
-        return PPM_STATUS_OK;
+        return ppmi_gltf_darken_light(reader, node, way);
     }
     return ppmi_gltf_put_light(reader, node, way, desc);
 }

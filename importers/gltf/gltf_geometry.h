@@ -10,6 +10,7 @@ typedef struct ppmi_gltf_geometry {
     size_t element_count; /* triangles, points or segments; 0: nothing to draw */
     size_t vertex_count, index_count;
     float *positions, *normals, *tangents, *colors;
+    bool is_taken; /* the first three belong to what deforms the mesh */
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;
     uint32_t *sources; /* of each vertex: its place in the accessors; NULL: the same */

@@ -121,7 +121,7 @@ static ppm_status add_punctual(ppmi_gltf_reader *reader, int32_t node, const dou
     }
     if (fault) {
         ppmi_gltf_warn(reader, place, "left out: lights[%d]: %s", (int)from->light, fault);
-        return PPM_STATUS_OK;
+        return ppmi_gltf_darken_light(reader, node, PPMI_GLTF_WAY_PUNCTUAL);
     }
     const ppmi_gltf_lamp_extras extras = ppmi_gltf_merge_extras(&light->lamp, &from->lamp);
     apply_extras(reader, place, &extras, &desc);

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "gltf/gltf_deform.h"
 #include "gltf/gltf_patch.h"
 #include "gltf/gltf_pose.h"
 
@@ -15,7 +16,8 @@ ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
     p->cameras = ppmi_alloc_zeroed(reader->context, count + 1, sizeof *p->cameras);
     p->lights =
         ppmi_alloc_zeroed(reader->context, count + 1, PPMI_GLTF_WAY_COUNT * sizeof *p->lights);
-    if (!p->first_instance || !p->cameras || !p->lights) {
+    p->deforms = ppmi_alloc_zeroed(reader->context, count + 1, sizeof(ppmi_gltf_deform *));
+    if (!p->first_instance || !p->cameras || !p->lights || !p->deforms) {
         return ppmi_gltf_out_of_memory(reader, "nodes");
     }
     for (size_t i = 0; i < count; ++i) {
@@ -24,9 +26,15 @@ ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
     return PPM_STATUS_OK;
 }
 
-void ppmi_gltf_placements_destroy(ppm_context *context, ppmi_gltf_placements *p)
+void ppmi_gltf_placements_destroy(ppmi_gltf_reader *reader)
 {
+    ppmi_gltf_placements *p = reader->placements;
+    ppm_context *context = reader->context;
     if (!p) return;
+    for (size_t i = 0; p->deforms && i < reader->document->node_count; ++i) {
+        ppmi_gltf_deform_destroy(context, p->deforms[i]);
+    }
+    ppmi_free(context, p->deforms);
     ppmi_free(context, p->first_instance);
     ppmi_free(context, p->cameras);
     ppmi_free(context, p->lights);
@@ -90,4 +98,13 @@ ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf
     if (!reader->pose->is_visible[node]) memset(light.intensity, 0, sizeof light.intensity);
     if (*id != 0) return ppm_scene_set_light(reader->scene, *id, &light);
     return ppm_scene_add_light(reader->scene, &light, id);
+}
+
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way)
+{
+    const ppm_light_desc dark = {.size = sizeof dark,
+                                 .kind = PPM_LIGHT_POINT,
+                                 .transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f}};
+    const ppm_light_id id = reader->placements->lights[(size_t)node * PPMI_GLTF_WAY_COUNT + way];
+    return id != 0 ? ppm_scene_set_light(reader->scene, id, &dark) : PPM_STATUS_OK;
 }

@@ -16,15 +16,16 @@ typedef enum ppmi_gltf_light_way {
 } ppmi_gltf_light_way;
 
 typedef struct ppmi_gltf_placements {
-    int64_t *first_instance; /* per node, in instances; -1: none yet */
-    ppm_camera_id *cameras;  /* per node; 0: none yet */
-    ppm_light_id *lights;    /* per node and way */
+    int64_t *first_instance;           /* per node, in instances; -1: none yet */
+    ppm_camera_id *cameras;            /* per node; 0: none yet */
+    ppm_light_id *lights;              /* per node and way */
+    struct ppmi_gltf_deform **deforms; /* per node; NULL: none */
     size_t instance_count, instance_capacity;
     ppm_instance_id *instances;
 } ppmi_gltf_placements;
 
 ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader);
-void ppmi_gltf_placements_destroy(ppm_context *context, ppmi_gltf_placements *placements);
+void ppmi_gltf_placements_destroy(ppmi_gltf_reader *reader);
 
 /* Each adds what a node has at its first call, and changes it at the later ones. ordinal counts the
  * instances of a node from 0, in order. */
@@ -35,5 +36,8 @@ ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node,
 /* A light of a node that is not visible gives none. */
 ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way,
                                const ppm_light_desc *desc);
+/* Of a light that cannot be as it is now: takes the light of the pose before away, if there is one.
+ */
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way);
 
 #endif
