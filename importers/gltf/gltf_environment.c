@@ -127,7 +127,7 @@ static const char *light_fault(const ppmi_gltf_image_light *light)
 ppm_status ppmi_gltf_import_environment(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
-    const int32_t scene = document->default_scene < 0 ? 0 : document->default_scene;
+    const int32_t scene = reader->chosen_scene;
     char place[PPMI_GLTF_PLACE], inner[PPMI_GLTF_PLACE];
     if ((size_t)scene >= document->scene_count) return PPM_STATUS_OK;
     const int32_t index = document->scenes[scene].image_light;

@@ -24,10 +24,9 @@ static void reach_materials(const ppmi_gltf_reader *reader, survey *s, int32_t i
     const ppmi_gltf_mesh *mesh = &document->meshes[index];
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
         const ppmi_gltf_primitive *primitive = &mesh->primitives[i];
-        const bool exists =
-            primitive->material >= 0 && (size_t)primitive->material < document->material_count;
-        if (exists && primitive->mode >= PPMI_GLTF_TRIANGLES)
-            s->materials[primitive->material] = true;
+        const int32_t material = ppmi_gltf_variant_material(reader, primitive);
+        const bool exists = material >= 0 && (size_t)material < document->material_count;
+        if (exists) s->materials[material] = true;
     }
 }
 
@@ -35,7 +34,7 @@ static void reach_materials(const ppmi_gltf_reader *reader, survey *s, int32_t i
 static void reach_roots(const ppmi_gltf_reader *reader, survey *s)
 {
     const ppmi_gltf_document *document = reader->document;
-    const int32_t index = document->default_scene < 0 ? 0 : document->default_scene;
+    const int32_t index = reader->chosen_scene;
     if ((size_t)index < document->scene_count) {
         const ppmi_gltf_scene *scene = &document->scenes[index];
         for (uint32_t i = 0; i < scene->node_count; ++i)

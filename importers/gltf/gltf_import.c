@@ -128,6 +128,7 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_scene(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);

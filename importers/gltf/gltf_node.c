@@ -290,10 +290,10 @@ static ppm_status walk_all(ppmi_gltf_reader *reader, walk *w)
 }
 
 /* The scene that is asked for, or else the file's default one, or else the first. */
-static ppm_status choose_scene(ppmi_gltf_reader *reader, int32_t *out_index)
+ppm_status ppmi_gltf_choose_scene(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
-    *out_index = document->default_scene < 0 ? 0 : document->default_scene;
+    reader->chosen_scene = document->default_scene < 0 ? 0 : document->default_scene;
     if (!reader->options->scene) return PPM_STATUS_OK;
     const char **names = ppmi_alloc(reader->context, document->scene_count + 1, sizeof *names);
     if (!names) return ppmi_gltf_out_of_memory(reader, "scenes");
@@ -301,7 +301,7 @@ static ppm_status choose_scene(ppmi_gltf_reader *reader, int32_t *out_index)
         names[i] = document->scenes[i].name;
     }
     const ppm_status status = ppmi_gltf_choose(reader, "scene", reader->options->scene, names,
-                                               document->scene_count, true, out_index);
+                                               document->scene_count, true, &reader->chosen_scene);
     ppmi_free(reader->context, names);
     return status;
 }
@@ -309,12 +309,9 @@ static ppm_status choose_scene(ppmi_gltf_reader *reader, int32_t *out_index)
 static ppm_status walk_scene(ppmi_gltf_reader *reader, walk *w)
 {
     const ppmi_gltf_document *document = reader->document;
-    int32_t index;
+    const int32_t index = reader->chosen_scene;
     char place[PPMI_GLTF_PLACE];
-    ppm_status status = choose_scene(reader, &index);
-    if (status == PPM_STATUS_OK) {
-        status = ppmi_gltf_require(reader, PPMI_GLTF_SCENES, index, "scene");
-    }
+    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_SCENES, index, "scene");
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_scene *scene = &document->scenes[index];
     for (uint32_t i = 0; i < scene->node_count && status == PPM_STATUS_OK; ++i) {

@@ -70,6 +70,7 @@ struct ppmi_gltf_reader {
     ppm_material_id default_material; /* 0: not added yet */
     bool is_looking_at_textures;      /* textures are noted, not loaded (gltf_image_batch.c) */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
+    int32_t chosen_scene;             /* by the options or the file; may not exist */
     uint32_t variant;                 /* that is shown, from 1; 0: the plain materials */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
@@ -151,6 +152,10 @@ ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t accessor, co
                                   uint32_t **out_values, size_t *out_count);
 
 /* ---- the passes ------------------------------------------------------------------------------ */
+
+/* gltf_node.c: finds the scene of the options, which becomes reader->chosen_scene. Returns OK,
+ * INVALID_ARGUMENT (no such scene), OUT_OF_MEMORY. */
+ppm_status ppmi_gltf_choose_scene(ppmi_gltf_reader *reader);
 
 /* gltf_node.c: walks the scene and adds instances, cameras and lights, in the options' pose. */
 ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader);
