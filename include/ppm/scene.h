@@ -295,8 +295,8 @@ PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc 
 PPM_API uint32_t ppm_scene_camera_count(const ppm_scene *scene);
 /* The name of a camera, never NULL for a valid id; NULL otherwise. Valid until destroy. */
 PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id id);
-/* Where a camera stands and how it is turned, in motion at the opening of the shutter: its transform
- * without scale. Returns OK, INVALID_ARGUMENT. */
+/* Where a camera stands and how it is turned, in motion at the opening of the shutter: its
+ * transform without scale. Returns OK, INVALID_ARGUMENT. */
 PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
                                               float out_transform[16]);
 /* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
