@@ -286,8 +286,8 @@ PPM_API uint32_t ppm_scene_instance_count(const ppm_scene *scene);
 /* The name of an instance, never NULL for a valid id; NULL otherwise. Several may have the same.
  * Valid until destroy. */
 PPM_API const char *ppm_scene_instance_name(const ppm_scene *scene, ppm_instance_id id);
-/* The box around an instance, world space. Returns OK, INVALID_ARGUMENT (no such instance, or one
- * without triangles). */
+/* The box around an instance over all of its motion, world space, whether it is visible or not.
+ * Returns OK, INVALID_ARGUMENT (no such instance, or one without triangles, points or lines). */
 PPM_API ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id,
                                              float out_min[3], float out_max[3]);
 
@@ -317,8 +317,8 @@ PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc 
 PPM_API uint32_t ppm_scene_camera_count(const ppm_scene *scene);
 /* The name of a camera, never NULL for a valid id; NULL otherwise. Valid until destroy. */
 PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id id);
-/* Where a camera stands and how it is turned: its transform without scale. Returns OK,
- * INVALID_ARGUMENT. */
+/* Where a camera stands and how it is turned, in motion at the opening of the shutter: its
+ * transform without scale. Returns OK, INVALID_ARGUMENT. */
 PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
                                               float out_transform[16]);
 /* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
@@ -473,7 +473,8 @@ typedef struct ppm_scene_info {
     uint64_t meshes;
     uint64_t materials;
     uint64_t textures; /* images */
-    uint64_t lights;   /* punctual lights, emissive triangles, and 1 for an environment */
+    uint64_t lights;   /* punctual lights, emissive triangles, points and lines that are visible,
+                          and 1 for an environment */
     uint64_t cameras;
     uint32_t has_light;  /* non-zero when anything shines */
     float bounds_min[3]; /* of all instances, world space; min > max when there are none */

@@ -28,9 +28,10 @@ static struct RTCRay embree_ray(const ppmi_ray *ray)
 }
 
 /* Round elements are told from triangles by their geometry number: their places are by angles. */
-static ppmi_hit hit_of(const ppmi_accel *accel, const struct RTCHit *found, float t, float time)
+static inline void load_hit(const ppmi_accel *accel, const struct RTCHit *found, float t,
+                            float time, ppmi_hit *out_hit)
 {
-    ppmi_hit hit = {
+    *out_hit = (ppmi_hit){
         .instance = found->instID[0],
         .primitive = found->geomID,
         .triangle = found->primID,
@@ -41,9 +42,8 @@ static ppmi_hit hit_of(const ppmi_accel *accel, const struct RTCHit *found, floa
     };
     if (accel->has_round) {
         const ppmi_vec3 normal = vec3(found->Ng_x, found->Ng_y, found->Ng_z);
-        ppmi_round_place(accel->scene, normal, &hit);
+        ppmi_round_place(accel->scene, normal, out_hit);
     }
-    return hit;
 }
 
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit)
@@ -60,7 +60,7 @@ bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit
     rtcIntersect1(accel->top, &context, &query);
 #endif
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    *out_hit = hit_of(accel, &query.hit, query.ray.tfar, ray->time);
+    load_hit(accel, &query.hit, query.ray.tfar, ray->time, out_hit);
     return true;
 }
 
@@ -87,7 +87,8 @@ static void collect(const struct RTCFilterFunctionNArguments *arguments)
     const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
     arguments->valid[0] = 0;
     if (all->count == all->max) return;
-    const ppmi_hit hit = hit_of(all->accel, found, ray->tfar, ray->time);
+    ppmi_hit hit;
+    load_hit(all->accel, found, ray->tfar, ray->time, &hit);
     uint32_t place = all->count++;
     for (; place > 0 && all->hits[place - 1].t > hit.t; place--)
         all->hits[place] = all->hits[place - 1];

@@ -7,7 +7,8 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, floa
                           const float u[4], ppmi_emission *emission)
 {
     ppmi_surface surface;
-    const float area = ppmi_emitter_sample(lights, e, u[0], u[1], time, &surface);
+    ppmi_emitter_sample(lights, e, u[0], u[1], time, &surface);
+    const float area = ppmi_emitter_area(e, &surface);
     float side = 1.0f, u_direction = u[2];
     if (e->sides == 2) {
         side = u_direction < 0.5f ? 1.0f : -1.0f;

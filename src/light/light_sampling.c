@@ -41,33 +41,30 @@ static bool sample_lamp(const ppm_scene *scene, const ppmi_lamp *lamp, ppmi_vec3
     return !vec3_is_black(sample->radiance);
 }
 
-float ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
-                          float time, ppmi_surface *out_surface)
+ppmi_vec2 ppmi_emitter_place(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
+                             float time)
 {
-    ppmi_vec2 at = ppmi_sample_triangle(u, v);
-    if (e->has_own_area) {
-        const uint32_t mesh = lights->scene->instances[e->instance].mesh;
-        const ppmi_primitive *primitive = &lights->scene->meshes[mesh].primitives[e->primitive];
-        if (primitive->kind != PPM_PRIMITIVE_TRIANGLES) {
-            const ppmi_round round = ppmi_round_of(primitive, e->triangle, time);
-            ppmi_round_sample(&round, u, v, &at.x, &at.y);
-        }
-    }
-    ppmi_emitter_surface(lights, e, at.x, at.y, time, out_surface);
-    return ppmi_emitter_area(e, out_surface);
+    const uint32_t mesh = lights->scene->instances[e->instance].mesh;
+    const ppmi_primitive *primitive = &lights->scene->meshes[mesh].primitives[e->primitive];
+    if (primitive->kind == PPM_PRIMITIVE_TRIANGLES) return ppmi_sample_triangle(u, v);
+    const ppmi_round round = ppmi_round_of(primitive, e->triangle, time);
+    ppmi_vec2 at;
+    ppmi_round_sample(&round, u, v, &at.x, &at.y);
+    return at;
 }
 
 static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, ppmi_vec3 position,
                             float time, float u, float v, ppmi_light_sample *sample)
 {
     ppmi_surface surface;
-    const float area = ppmi_emitter_sample(lights, e, u, v, time, &surface);
+    ppmi_emitter_sample(lights, e, u, v, time, &surface);
     const ppmi_vec3 to_light = vec3_sub(surface.position, position);
     const float distance2 = vec3_length2(to_light);
     if (!(distance2 > 0.0f)) return false;
     const float distance = sqrtf(distance2);
     sample->wi = vec3_scale(to_light, 1.0f / distance);
     const float cosine = fabsf(vec3_dot(sample->wi, surface.ng));
+    const float area = ppmi_emitter_area(e, &surface);
     if (!(cosine > 1e-6f) || !(area > 0.0f)) return false;
     sample->radiance = ppmi_emitter_radiance(lights, &surface, vec3_neg(sample->wi));
     const float side = vec3_dot(sample->wi, surface.ng) < 0.0f ? 1.0f : -1.0f;

@@ -66,14 +66,23 @@ static inline void ppmi_emitter_surface(const ppmi_lights *lights, const ppmi_em
     ppmi_surface_from_hit(lights->scene, &hit, out_surface);
 }
 
-/* Draws a place of it; 1 over the result is the density by area. */
-float ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
-                          float time, ppmi_surface *out_surface);
-
-/* That area, at a place that has been met. */
+/* 1 over the density by area of a place that is drawn. */
 static inline float ppmi_emitter_area(const ppmi_emitter *e, const ppmi_surface *surface)
 {
     return e->has_own_area ? ppmi_surface_area(surface) : e->area;
+}
+
+/* An even place of an emitter that moves or is round. */
+ppmi_vec2 ppmi_emitter_place(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
+                             float time);
+
+/* Draws a place. */
+static inline void ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u,
+                                       float v, float time, ppmi_surface *out_surface)
+{
+    const ppmi_vec2 at =
+        e->has_own_area ? ppmi_emitter_place(lights, e, u, v, time) : ppmi_sample_triangle(u, v);
+    ppmi_emitter_surface(lights, e, at.x, at.y, time, out_surface);
 }
 
 /* Emission of such a surface, as far as it is opaque: rays meet a surface with alpha as often as it

@@ -19,22 +19,45 @@ static const uint32_t *triangle_of(const ppmi_surface *surface)
     return surface->primitive->indices + 3 * (size_t)surface->triangle;
 }
 
-/* Between the vertices of a triangle, of values that move with them. */
-static ppmi_vec3 interpolate3(const ppmi_surface *surface, const float *values)
+static ppmi_vec3 interpolate_still(const float *values, const uint32_t *triangle, float u, float v)
+{
+    const ppmi_vec3 a = vec3_load(values + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 b = vec3_load(values + 3 * (size_t)triangle[1]);
+    const ppmi_vec3 c = vec3_load(values + 3 * (size_t)triangle[2]);
+    return vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
+}
+
+/* The corners' values at the surface's time: three floats a vertex, in blocks. */
+static void load_moving(const ppmi_surface *surface, const float *values, ppmi_vec3 *a,
+                        ppmi_vec3 *b, ppmi_vec3 *c)
+{
+    const uint32_t *triangle = triangle_of(surface);
+    *a = ppmi_vertex_at(surface->primitive, values, triangle[0], surface->time);
+    *b = ppmi_vertex_at(surface->primitive, values, triangle[1], surface->time);
+    *c = ppmi_vertex_at(surface->primitive, values, triangle[2], surface->time);
+}
+
+static ppmi_vec3 interpolate_moving(const ppmi_surface *surface, const float *values)
+{
+    const float u = surface->u, v = surface->v;
+    ppmi_vec3 a, b, c;
+    load_moving(surface, values, &a, &b, &c);
+    return vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
+}
+
+/* The mesh's normal, object space, not normalised. */
+static inline ppmi_vec3 local_normal(const ppmi_surface *surface)
 {
     const ppmi_primitive *primitive = surface->primitive;
-    const uint32_t *triangle = triangle_of(surface);
-    const float u = surface->u, v = surface->v, time = surface->time;
-    const ppmi_vec3 a = ppmi_vertex_at(primitive, values, triangle[0], time);
-    const ppmi_vec3 b = ppmi_vertex_at(primitive, values, triangle[1], time);
-    const ppmi_vec3 c = ppmi_vertex_at(primitive, values, triangle[2], time);
-    return vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
+    return primitive->motion_steps == 1
+               ? interpolate_still(primitive->normals, triangle_of(surface), surface->u, surface->v)
+               : interpolate_moving(surface, primitive->normals);
 }
 
 static ppmi_vec3 shading_normal(const ppmi_surface *surface, const ppmi_transform *normals)
 {
     if (!surface->primitive->normals) return surface->ng;
-    const ppmi_vec3 local = interpolate3(surface, surface->primitive->normals);
+    const ppmi_vec3 local = local_normal(surface);
     const ppmi_vec3 world = ppmi_transform_vector(normals, local);
     const float length = vec3_length(world);
     if (!(length > 1e-6f)) return surface->ng;
@@ -42,86 +65,123 @@ static ppmi_vec3 shading_normal(const ppmi_surface *surface, const ppmi_transfor
     return vec3_dot(ns, surface->ng) < 0.0f ? vec3_neg(ns) : ns;
 }
 
-static float error_bound(const ppmi_instance *instance, float local)
+/* The first corner of the triangle, and the edges from it. */
+static inline void load_triangle(const ppmi_surface *surface, ppmi_vec3 *a, ppmi_vec3 *ab,
+                                 ppmi_vec3 *ac)
 {
-    const float origin =
-        instance->motion ? ppmi_instance_reach(instance) : vec3_max_abs(instance->to_world.origin);
-    return error_ulps * FLT_EPSILON * ppmi_max(instance->scale * local, origin);
+    const float *positions = surface->primitive->positions;
+    ppmi_vec3 b, c;
+    if (surface->primitive->motion_steps == 1) {
+        const uint32_t *triangle = triangle_of(surface);
+        *a = vec3_load(positions + 3 * (size_t)triangle[0]);
+        b = vec3_load(positions + 3 * (size_t)triangle[1]);
+        c = vec3_load(positions + 3 * (size_t)triangle[2]);
+    } else {
+        load_moving(surface, positions, a, &b, &c);
+    }
+    *ab = vec3_sub(b, *a);
+    *ac = vec3_sub(c, *a);
 }
 
-/* The vertices of the triangle: their first, and the edges from it. Returns the largest coordinate
- * that took part. */
-static float load_triangle(const ppmi_surface *surface, ppmi_vec3 *a, ppmi_vec3 *ab, ppmi_vec3 *ac)
+/* Where an instance is at a time, and the largest coordinates that take part in placing a point
+ * beside those at the time: the ones at the steps before and after. */
+typedef struct pose {
+    ppmi_transform to_world, normals;
+    float local_reach, origin_reach;
+} pose;
+
+static pose pose_at(const ppmi_surface *surface)
 {
+    const ppmi_instance *instance = surface->instance;
     const ppmi_primitive *primitive = surface->primitive;
-    const uint32_t *triangle = triangle_of(surface);
-    const float time = surface->time;
-    *a = ppmi_position_at(primitive, triangle[0], time);
-    *ab = vec3_sub(ppmi_position_at(primitive, triangle[1], time), *a);
-    *ac = vec3_sub(ppmi_position_at(primitive, triangle[2], time), *a);
-    if (primitive->motion_steps == 1) return 0.0f;
-    return ppmi_max(vec3_max_abs(primitive->bounds_min), vec3_max_abs(primitive->bounds_max));
-}
-
-static void place_on_triangle(ppmi_surface *surface, const ppmi_transform *to_world,
-                              const ppmi_transform *normals)
-{
-    ppmi_vec3 a, ab, ac;
-    const float moved = load_triangle(surface, &a, &ab, &ac);
-    const ppmi_vec3 local = vec3_mad(vec3_mad(a, ab, surface->u), ac, surface->v);
-    surface->position = ppmi_transform_point(to_world, local);
-    surface->ng = vec3_normalize(ppmi_transform_vector(normals, vec3_cross(ab, ac)));
-    const float edge = ppmi_max(vec3_max_abs(ab), vec3_max_abs(ac));
-    const float extent = ppmi_max(vec3_max_abs(local), edge);
-    surface->error = error_bound(surface->instance, ppmi_max(extent, moved));
-    surface->ns = shading_normal(surface, normals);
+    pose result = {.to_world = instance->to_world,
+                   .normals = instance->normals,
+                   .origin_reach = vec3_max_abs(instance->to_world.origin)};
+    if (instance->motion) {
+        result.to_world = ppmi_instance_at(instance, surface->time);
+        result.normals = ppmi_transform_normals(&result.to_world);
+        result.origin_reach = ppmi_instance_reach(instance);
+    }
+    if (primitive->motion_steps > 1) {
+        result.local_reach =
+            ppmi_max(vec3_max_abs(primitive->bounds_min), vec3_max_abs(primitive->bounds_max));
+    }
+    return result;
 }
 
 /* Embree finds balls and segments by other sums than ours, from where its ray comes near: the bound
  * is some times that of triangles. */
-static void place_on_round(ppmi_surface *surface, const ppmi_transform *to_world,
-                           const ppmi_transform *normals)
+static void place_on_round(ppmi_surface *surface)
 {
     const float more = 4.0f;
-    const ppmi_primitive *primitive = surface->primitive;
-    const ppmi_round round = ppmi_round_of(primitive, surface->triangle, surface->time);
+    const pose at = pose_at(surface);
+    const ppmi_round round = ppmi_round_of(surface->primitive, surface->triangle, surface->time);
     const ppmi_round_point point = ppmi_round_at(&round, surface->u, surface->v);
-    surface->position = ppmi_transform_point(to_world, point.position);
-    surface->ng = vec3_normalize(ppmi_transform_vector(normals, point.normal));
+    surface->position = ppmi_transform_point(&at.to_world, point.position);
+    surface->ng = vec3_normalize(ppmi_transform_vector(&at.normals, point.normal));
     surface->ns = surface->ng;
-    const float extent =
-        primitive->motion_steps > 1
-            ? ppmi_max(vec3_max_abs(primitive->bounds_min), vec3_max_abs(primitive->bounds_max))
-            : ppmi_max(vec3_max_abs(round.first), vec3_max_abs(round.last)) + round.radius;
-    surface->error = more * error_bound(surface->instance, extent);
+    const float ends = ppmi_max(vec3_max_abs(round.first), vec3_max_abs(round.last)) + round.radius;
+    const float extent = ppmi_max(ends, at.local_reach);
+    const float magnitude = ppmi_max(surface->instance->scale * extent, at.origin_reach);
+    surface->error = more * error_ulps * FLT_EPSILON * magnitude;
+}
+
+/* Inlined twice: most hits are of triangles at rest. */
+__attribute__((always_inline)) static inline void
+place_on_triangle(ppmi_surface *surface, const ppmi_transform *to_world,
+                  const ppmi_transform *normals, ppmi_vec3 a, ppmi_vec3 ab, ppmi_vec3 ac,
+                  float local_reach, float origin_reach)
+{
+    const ppmi_vec3 local = vec3_mad(vec3_mad(a, ab, surface->u), ac, surface->v);
+    surface->position = ppmi_transform_point(to_world, local);
+    surface->ng = vec3_normalize(ppmi_transform_vector(normals, vec3_cross(ab, ac)));
+
+    const float edge = ppmi_max(vec3_max_abs(ab), vec3_max_abs(ac));
+    const float extent = ppmi_max(ppmi_max(vec3_max_abs(local), edge), local_reach);
+    const float magnitude = ppmi_max(surface->instance->scale * extent, origin_reach);
+    surface->error = error_ulps * FLT_EPSILON * magnitude;
+}
+
+static void place_at_time(ppmi_surface *surface)
+{
+    if (surface->primitive->kind != PPM_PRIMITIVE_TRIANGLES) {
+        place_on_round(surface);
+        return;
+    }
+    const pose at = pose_at(surface);
+    ppmi_vec3 a, ab, ac;
+    load_triangle(surface, &a, &ab, &ac);
+    place_on_triangle(surface, &at.to_world, &at.normals, a, ab, ac, at.local_reach,
+                      at.origin_reach);
+    surface->ns = shading_normal(surface, &at.normals);
 }
 
 void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_surface *out_surface)
 {
     ppmi_surface *surface = out_surface;
     const ppmi_instance *instance = &scene->instances[hit->instance];
+    const ppmi_primitive *primitive = &scene->meshes[instance->mesh].primitives[hit->primitive];
     surface->instance = instance;
-    surface->primitive = &scene->meshes[instance->mesh].primitives[hit->primitive];
-    surface->material = &scene->materials[surface->primitive->material];
+    surface->primitive = primitive;
+    surface->material = &scene->materials[primitive->material];
     surface->triangle = hit->triangle;
     surface->u = hit->u;
     surface->v = hit->v;
     surface->uv_dx = surface->uv_dy = (ppmi_vec2){0.0f, 0.0f};
     surface->time = hit->time;
-
-    ppmi_transform to_world, normals;
-    const ppmi_transform *pose = &instance->to_world, *normal_pose = &instance->normals;
-    if (instance->motion) {
-        to_world = ppmi_instance_at(instance, hit->time);
-        normals = ppmi_transform_normals(&to_world);
-        pose = &to_world;
-        normal_pose = &normals;
+    if (primitive->motion_steps > 1 || primitive->kind != PPM_PRIMITIVE_TRIANGLES ||
+        instance->motion) {
+        place_at_time(surface);
+        return;
     }
-    if (surface->primitive->kind == PPM_PRIMITIVE_TRIANGLES) {
-        place_on_triangle(surface, pose, normal_pose);
-    } else {
-        place_on_round(surface, pose, normal_pose);
-    }
+    const uint32_t *triangle = primitive->indices + 3 * (size_t)hit->triangle;
+    const float *positions = primitive->positions;
+    const ppmi_vec3 a = vec3_load(positions + 3 * (size_t)triangle[0]);
+    const ppmi_vec3 ab = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[1]), a);
+    const ppmi_vec3 ac = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[2]), a);
+    place_on_triangle(surface, &instance->to_world, &instance->normals, a, ab, ac, 0.0f,
+                      vec3_max_abs(instance->to_world.origin));
+    surface->ns = shading_normal(surface, &instance->normals);
 }
 
 float ppmi_surface_area(const ppmi_surface *surface)
@@ -314,7 +374,7 @@ static bool mesh_tangents(const ppmi_surface *surface, ppmi_vec3 *tangent, ppmi_
     const ppmi_vec3 c = tangent_at(primitive, triangle[2], time);
     const ppmi_vec3 t = vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
     const float sign = primitive->tangents[4 * (size_t)triangle[0] + 3] < 0.0f ? -1.0f : 1.0f;
-    const ppmi_vec3 n = interpolate3(surface, primitive->normals);
+    const ppmi_vec3 n = local_normal(surface);
     const ppmi_transform to_world = ppmi_instance_at(surface->instance, time);
     *tangent = vec3_normalize(ppmi_transform_vector(&to_world, t));
     *bitangent =
