@@ -9,9 +9,8 @@
 
 /* Imports a triangle with these textures; the material has texture 0 as base colour and as normal
  * map, so that images come in both roles. */
-static ppm_status import_images(gltf_fixture *f, const char *textures, const char *images)
+static ppm_status import_here(gltf_fixture *f, const char *textures, const char *images)
 {
-    gltf_reset(f);
     return gltf_importf(
         f,
         "{'asset':{'version':'2.0'},'nodes':[{'mesh':0}],"
@@ -23,6 +22,12 @@ static ppm_status import_images(gltf_fixture *f, const char *textures, const cha
         "'buffers':[{'byteLength':36,'uri':'data:;base64,"
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA'}]}",
         textures, images);
+}
+
+static ppm_status import_images(gltf_fixture *f, const char *textures, const char *images)
+{
+    gltf_reset(f);
+    return import_here(f, textures, images);
 }
 
 static ppm_status import_image(gltf_fixture *f, const char *image)
@@ -329,6 +334,25 @@ static void ids_and_messages_do_not_depend_on_which_image_is_ready_first(void **
     }
 }
 
+static void every_allocation_may_fail(void **state)
+{
+    gltf_fixture *f = *state;
+    gltf_write(f, "sub/a", even_webp, sizeof even_webp);
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    size_t n = 0;
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        gltf_reset(f);
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = import_here(f, "{'source':1,'extensions':{'EXT_texture_webp':{'source':0}}}",
+                             "{'uri':'a'},{'uri':'absent'}");
+        ppmi_alloc_fail_at(f->context, 0);
+        assert_true(n < 1000);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 30);
+    assert_is_even(f, 4);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -336,6 +360,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_size_that_the_bytes_cannot_hold_is_refused),
         TEST(files_that_end_anywhere_are_survived),
+        TEST(every_allocation_may_fail),
         TEST(nothing_is_fetched_from_a_network),
         TEST(files_outside_are_read_only_if_that_is_allowed),
         TEST(names_may_be_encoded_or_not_or_in_part),
