@@ -34,7 +34,7 @@ ppm_status ppmi_imageio_heif_check(ppm_context *context, const void *bytes, size
                              name, width, height);
         }
         if ((uint64_t)width * height > most) {
-            return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY,
+            return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED,
                              "%s: %u x %u pixels are more than 2^26, the most that is read of "
                              "this format",
                              name, width, height);

@@ -5,7 +5,7 @@
 #include "base/context.h"
 
 /* OpenImageIO decodes these files when it opens them: too late to look at their size. Returns OK,
- * INPUT_INVALID (no size, or one of 0), OUT_OF_MEMORY (more than 2^26 pixels; reported). */
+ * INPUT_INVALID (no size, or one of 0), INPUT_UNSUPPORTED (more than 2^26 pixels; reported). */
 ppm_status ppmi_imageio_heif_check(ppm_context *context, const void *bytes, size_t byte_count,
                                    const char *name);
 

@@ -96,7 +96,7 @@ static ppm_status check_area(ppm_context *context, const char *name, int32_t wid
                          width, height);
     }
     if ((int64_t)width * height > values_max / channels) {
-        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY,
+        return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED,
                          "%s: %d x %d pixels of %d channels are more than 2^30 values", name, width,
                          height, channels);
     }

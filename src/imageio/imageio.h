@@ -26,7 +26,7 @@ typedef struct ppmi_pixels {
 /* Decodes a file. name is used in messages. Files of more than 4 channels give the first four, in
  * OpenEXR files R, G, B (and A) of the layer without a name, else of the one called Combined, else
  * of the first that has them; alpha is returned unassociated. Refuses images of more than 2^30
- * values (OUT_OF_MEMORY names the size). Returns OK, INPUT_NOT_FOUND, INPUT_INVALID,
+ * values (INPUT_UNSUPPORTED). Returns OK, INPUT_NOT_FOUND, INPUT_INVALID,
  * INPUT_UNSUPPORTED, OUT_OF_MEMORY. Any thread.
  */
 ppm_status ppmi_imageio_read_file(ppm_context *context, const char *path, const char *name,

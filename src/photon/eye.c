@@ -32,7 +32,6 @@ typedef struct eye_branch {
     uint32_t depth, splits, media_splits;
     ppmi_interior interior; /* the walker's, while the branch waits */
     float wavelength_nm;
-    ppmi_differential differential;
 } eye_branch;
 
 typedef struct eye_path {
@@ -44,6 +43,7 @@ typedef struct eye_path {
     ppmi_visible_points *points;
     ppmi_vec3 *radiance;
     eye_branch waiting[MAX_BRANCHES];
+    ppmi_differential differentials[MAX_BRANCHES]; /* the walker's, of those that wait */
     uint32_t waiting_count;
     bool is_out_of_memory;
 } eye_path;
@@ -113,7 +113,8 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
         .position = at->vertex.surface.position, .pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
     const ppmi_interior interior = walker->interior;
     const float wavelength = walker->wavelength_nm;
-    const ppmi_differential differential = walker->differential;
+    ppmi_differential differential;
+    ppmi_differential_copy(&differential, &walker->differential);
     const ppmi_ray ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput);
     ppmi_vertex next;
     walker->origin = &origin;
@@ -128,7 +129,7 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
     }
     walker->interior = interior;
     walker->wavelength_nm = wavelength;
-    walker->differential = differential;
+    ppmi_differential_copy(&walker->differential, &differential);
 }
 
 static void gather(eye_path *path, const eye_branch *branch, const eye_vertex *at,
@@ -160,7 +161,6 @@ static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const 
     if (is_weighed) next.origin.pdf = ppmi_bsdf_pdf(&at->bsdf, sample->wi, PPMI_LOBE_ALL);
     next.interior = walker->interior;
     next.wavelength_nm = walker->wavelength_nm;
-    next.differential = walker->differential;
     next.depth = branch->depth + 1;
     return next;
 }
@@ -198,13 +198,18 @@ static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *
 {
     const ppmi_interior interior = path->walker->interior;
     const float wavelength = path->walker->wavelength_nm;
-    const ppmi_differential differential = path->walker->differential;
+    ppmi_differential differential;
+    ppmi_differential_copy(&differential, &path->walker->differential);
     eye_branch next = branch_beyond(path, branch, at, sample, sample->weight, sample->weight);
     next.splits++;
     path->walker->interior = interior;
     path->walker->wavelength_nm = wavelength;
-    path->walker->differential = differential;
-    if (!vec3_is_black(next.throughput)) path->waiting[path->waiting_count++] = next;
+    if (!vec3_is_black(next.throughput)) {
+        ppmi_differential_copy(&path->differentials[path->waiting_count],
+                               &path->walker->differential);
+        path->waiting[path->waiting_count++] = next;
+    }
+    ppmi_differential_copy(&path->walker->differential, &differential);
 }
 
 /* Puts off one branch for each direction of the delta lobes, and one for the narrow lobes. */
@@ -362,13 +367,13 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
         .cone_width = camera_ray->base_width,
         .interior = walker->interior,
         .wavelength_nm = walker->wavelength_nm,
-        .differential = walker->differential,
     };
+    ppmi_differential_copy(&path.differentials[0], &walker->differential);
     while (path.waiting_count > 0) {
         const eye_branch branch = path.waiting[--path.waiting_count];
         walker->interior = branch.interior;
         walker->wavelength_nm = branch.wavelength_nm;
-        walker->differential = branch.differential;
+        ppmi_differential_copy(&walker->differential, &path.differentials[path.waiting_count]);
         follow(&path, branch);
     }
     return !path.is_out_of_memory;

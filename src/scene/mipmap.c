@@ -74,24 +74,56 @@ static void load_row(const ppmi_image *image, const float *decode, uint32_t y, f
         return;
     }
     const uint8_t *from = image->u8 + at;
-    for (size_t i = 0; i < count; i += channels) {
-        for (uint32_t c = 0; c < channels; c++)
-            out[i + c] = c < colors ? decode[from[i + c]] : from[i + c] * (1.0f / 255.0f);
+    if (colors == channels) {
+        for (size_t i = 0; i < count; i++)
+            out[i] = decode[from[i]];
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        out[i] = from[i] * (1.0f / 255.0f);
+    for (uint32_t c = 0; c < colors; c++) {
+        for (size_t i = c; i < count; i += channels)
+            out[i] = decode[from[i]];
     }
 }
 
-/* Adds weight times a row of width texels, halved, to out. */
-static void add_halved(const float *row, uint32_t width, uint32_t channels, float weight,
-                       float *out)
+/* Halves a row of an even number of texels; constants for channels let the compiler unroll. */
+static inline void halve_even(const float *row, uint32_t half, uint32_t channels, float *out)
+{
+    for (uint32_t x = 0; x < half; x++) {
+        const float *texel = row + 2 * (size_t)x * channels;
+        for (uint32_t c = 0; c < channels; c++)
+            out[(size_t)x * channels + c] = 0.5f * (texel[c] + texel[channels + c]);
+    }
+}
+
+static void halve_odd(const float *row, uint32_t width, uint32_t channels, float *out)
 {
     const uint32_t half = width > 1 ? width / 2 : 1;
+    memset(out, 0, (size_t)half * channels * sizeof *out);
     for (uint32_t x = 0; x < half; x++) {
         const box b = box_at(x, width);
         for (uint32_t k = 0; k < b.count; k++) {
             const float *texel = row + (size_t)(b.first + k) * channels;
             for (uint32_t c = 0; c < channels; c++)
-                out[(size_t)x * channels + c] += weight * b.weights[k] * texel[c];
+                out[(size_t)x * channels + c] += b.weights[k] * texel[c];
         }
+    }
+}
+
+/* A row of width texels to half as many. */
+static void halve(const float *row, uint32_t width, uint32_t channels, float *out)
+{
+    if (width % 2 != 0) {
+        halve_odd(row, width, channels, out);
+    } else if (channels == 1) {
+        halve_even(row, width / 2, 1, out);
+    } else if (channels == 3) {
+        halve_even(row, width / 2, 3, out);
+    } else if (channels == 4) {
+        halve_even(row, width / 2, 4, out);
+    } else {
+        halve_even(row, width / 2, channels, out);
     }
 }
 
@@ -102,20 +134,26 @@ typedef struct source {
     const float *values;
 } source;
 
+/* scratch holds two rows of the image. */
 static void make_row(const ppmi_image *image, const float *decode, const source *from, uint32_t y,
                      float *scratch, float *out)
 {
+    const uint32_t channels = image->channels;
     const uint32_t half = from->width > 1 ? from->width / 2 : 1;
-    memset(out, 0, (size_t)half * image->channels * sizeof *out);
+    const size_t count = (size_t)half * channels;
+    float *const mean = scratch + (size_t)image->width * channels;
     const box b = box_at(y, from->height);
     for (uint32_t k = 0; k < b.count; k++) {
         const float *row = scratch;
         if (from->values) {
-            row = from->values + (size_t)(b.first + k) * from->width * image->channels;
+            row = from->values + (size_t)(b.first + k) * from->width * channels;
         } else {
             load_row(image, decode, b.first + k, scratch);
         }
-        add_halved(row, from->width, image->channels, b.weights[k], out);
+        halve(row, from->width, channels, mean);
+        const float weight = b.weights[k];
+        for (size_t i = 0; i < count; i++)
+            out[i] = (k == 0 ? 0.0f : out[i]) + weight * mean[i];
     }
 }
 
@@ -124,9 +162,13 @@ static void store_row(const ppmi_image *image, const code_table *codes, const fl
 {
     const uint32_t channels = image->channels;
     const uint32_t colors = !image->is_srgb ? 0 : channels >= 3 ? 3 : 1;
-    for (size_t i = 0; i < count; i += channels) {
-        for (uint32_t c = 0; c < channels; c++)
-            out[i + c] = c < colors ? encode(codes, row[i + c]) : to_u8(row[i + c]);
+    if (colors < channels) {
+        for (size_t i = 0; i < count; i++)
+            out[i] = to_u8(row[i]);
+    }
+    for (uint32_t c = 0; c < colors; c++) {
+        for (size_t i = c; i < count; i += channels)
+            out[i] = encode(codes, row[i]);
     }
 }
 
@@ -160,7 +202,7 @@ static size_t texels_of_all_levels(const ppmi_image *image)
 
 /* What is needed while the levels of an image are made. */
 typedef struct buffers {
-    float *row;       /* of the image */
+    float *rows;      /* two of the image */
     float *values[2]; /* the level that is read and the one that is written */
 } buffers;
 
@@ -179,7 +221,7 @@ static void fill_levels(const ppm_scene *scene, const code_table *codes, ppmi_im
         uint8_t *bytes = image->u8 ? (uint8_t *)image->mip_pixels + at : NULL;
         for (uint32_t y = 0; y < height; y++) {
             float *row = level + y * row_values;
-            make_row(image, scene->srgb_to_linear, &from, y, work->row, row);
+            make_row(image, scene->srgb_to_linear, &from, y, work->rows, row);
             if (bytes) store_row(image, codes, row, row_values, bytes + y * row_values);
         }
         image->mips[i] = (ppmi_image_level){width, height, bytes, image->f32 ? level : NULL};
@@ -194,7 +236,8 @@ static bool build_image(const ppm_scene *scene, const code_table *codes, ppmi_im
     const uint32_t channels = image->channels, count = level_count(image);
     if (count == 0) return true;
     const size_t first = half_texels(image->width, image->height) * channels;
-    buffers work = {.row = ppmi_alloc(context, (size_t)image->width * channels, sizeof(float))};
+    buffers work = {.rows =
+                        ppmi_alloc(context, 2 * (size_t)image->width * channels, sizeof(float))};
     if (image->u8) { /* the second level is not larger than the first */
         work.values[0] = ppmi_alloc(context, first, sizeof(float));
         work.values[1] = ppmi_alloc(context, first, sizeof(float));
@@ -202,7 +245,7 @@ static bool build_image(const ppm_scene *scene, const code_table *codes, ppmi_im
     image->mips = ppmi_alloc(context, count, sizeof *image->mips);
     image->mip_pixels = ppmi_alloc(context, texels_of_all_levels(image) * channels,
                                    image->u8 ? sizeof(uint8_t) : sizeof(float));
-    const bool has_memory = work.row && image->mips && image->mip_pixels &&
+    const bool has_memory = work.rows && image->mips && image->mip_pixels &&
                             (!image->u8 || (work.values[0] && work.values[1]));
     if (has_memory) {
         image->mip_count = count;
@@ -213,7 +256,7 @@ static bool build_image(const ppm_scene *scene, const code_table *codes, ppmi_im
         image->mips = NULL;
         image->mip_pixels = NULL;
     }
-    ppmi_free(context, work.row);
+    ppmi_free(context, work.rows);
     ppmi_free(context, work.values[0]);
     ppmi_free(context, work.values[1]);
     return has_memory;

@@ -16,6 +16,13 @@ typedef struct ppmi_differential {
     ppmi_vec3 direction_dx, direction_dy; /* of the unit direction */
 } ppmi_differential;
 
+/* Copies what there is: most scenes have no use for the rest. */
+static inline void ppmi_differential_copy(ppmi_differential *to, const ppmi_differential *from)
+{
+    to->is_known = from->is_known;
+    if (from->is_known) *to = *from;
+}
+
 /* Moves on along the ray. */
 void ppmi_differential_advance(ppmi_differential *differential, float distance);
 

@@ -303,12 +303,9 @@ ppmi_vec2 ppmi_surface_uv(const ppmi_surface *surface, uint32_t set)
     return (ppmi_vec2){w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1]};
 }
 
-static const ppmi_texel white = {1.0f, 1.0f, 1.0f, 1.0f};
-
-ppmi_texel ppmi_surface_texture_finest(const ppm_scene *scene, const ppmi_surface *surface,
-                                       const ppm_texture *texture)
+ppmi_texel ppmi_surface_lookup_finest(const ppm_scene *scene, const ppmi_surface *surface,
+                                      const ppm_texture *texture)
 {
-    if (texture->image == 0) return white;
     return ppmi_texture_lookup(scene, texture, ppmi_surface_uv(surface, texture->uv_set));
 }
 
@@ -318,10 +315,9 @@ static ppmi_vec2 combine(const float *a, const float *b, const float *c, ppmi_ve
                        (b[1] - a[1]) * step.x + (c[1] - a[1]) * step.y};
 }
 
-ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi_surface *surface,
-                                const ppm_texture *texture)
+ppmi_texel ppmi_surface_lookup(const ppm_scene *scene, const ppmi_surface *surface,
+                               const ppm_texture *texture)
 {
-    if (texture->image == 0) return white;
     const ppmi_vec2 uv = ppmi_surface_uv(surface, texture->uv_set);
     const ppmi_vec2 dx = surface->uv_dx, dy = surface->uv_dy;
     const float *uvs = surface->primitive->uvs[texture->uv_set];
@@ -421,7 +417,8 @@ float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface)
     float rgba[4];
     ppmi_surface_vertex_color(surface, rgba);
     float alpha = desc->base_color[3] * rgba[3];
-    alpha *= ppmi_surface_texture_finest(scene, surface, &desc->base_color_texture).a;
+    const ppm_texture *texture = &desc->base_color_texture;
+    if (texture->image > 0) alpha *= ppmi_surface_lookup_finest(scene, surface, texture).a;
     if (desc->alpha_mode == PPM_ALPHA_MASK) return alpha >= desc->alpha_cutoff ? 1.0f : 0.0f;
     return ppmi_clampf(alpha, 0.0f, 1.0f);
 }
@@ -434,7 +431,7 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
     ppmi_vec3 radiance = vec3_load(material->desc.emission);
     const ppm_texture *texture = &material->desc.emission_texture;
     if (texture->image > 0) {
-        const ppmi_texel texel = ppmi_surface_texture(scene, surface, texture);
+        const ppmi_texel texel = ppmi_surface_lookup(scene, surface, texture);
         radiance = vec3_mul(radiance, vec3(ppmi_max(texel.r, 0.0f), ppmi_max(texel.g, 0.0f),
                                            ppmi_max(texel.b, 0.0f)));
     }

@@ -38,13 +38,21 @@ void ppmi_surface_set_footprint(ppmi_surface *surface, ppmi_vec3 position_dx,
 void ppmi_surface_normal_derivatives(const ppmi_surface *surface, ppmi_vec3 n, ppmi_vec3 *out_n_dx,
                                      ppmi_vec3 *out_n_dy);
 
-/* A texture at the surface, filtered over its footprint; white where texture->image is 0. */
-ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi_surface *surface,
-                                const ppm_texture *texture);
+/* Looks a texture up at the surface, over its footprint; texture->image must not be 0. */
+ppmi_texel ppmi_surface_lookup(const ppm_scene *scene, const ppmi_surface *surface,
+                               const ppm_texture *texture);
 
 /* The same without filter. */
-ppmi_texel ppmi_surface_texture_finest(const ppm_scene *scene, const ppmi_surface *surface,
-                                       const ppm_texture *texture);
+ppmi_texel ppmi_surface_lookup_finest(const ppm_scene *scene, const ppmi_surface *surface,
+                                      const ppm_texture *texture);
+
+/* A texture at the surface; white where there is none. */
+static inline ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi_surface *surface,
+                                              const ppm_texture *texture)
+{
+    if (texture->image == 0) return (ppmi_texel){1.0f, 1.0f, 1.0f, 1.0f};
+    return ppmi_surface_lookup(scene, surface, texture);
+}
 
 /* Vertex colour and alpha; all 1 where the mesh has none. */
 void ppmi_surface_vertex_color(const ppmi_surface *surface, float out_rgba[4]);

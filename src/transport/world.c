@@ -195,6 +195,7 @@ static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, 
                          scatter_choice *choice)
 {
     const ppmi_arrival arrival = follow(walker, ray, kind, vertex, choice);
+    if (!walker->differential.is_known) return arrival;
     if (arrival == PPMI_AT_SURFACE) {
         ppmi_differential_meet(&walker->differential, vertex->distance, &vertex->surface);
     } else if (arrival == PPMI_IN_MEDIUM) {
@@ -338,7 +339,6 @@ static void leave_with_neighbours(ppmi_walker *walker, const ppmi_vertex *vertex
                                   const ppmi_bsdf_sample *sample)
 {
     ppmi_differential *differential = &walker->differential;
-    if (!differential->is_known) return;
     if (!sample->is_delta) {
         ppmi_differential_scatter(differential, sample->wi, sample->pdf);
     } else if (!sample->is_transmission) {
@@ -354,7 +354,7 @@ ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
                          const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput)
 {
     const ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample->wi);
-    leave_with_neighbours(walker, vertex, sample);
+    if (walker->differential.is_known) leave_with_neighbours(walker, vertex, sample);
     if (vertex->medium || !vertex->surface.material->is_solid_glass) return ray;
     if (sample->is_transmission) walker->interior = vertex->behind;
     if (vertex->drawn_wavelength > 0.0f && (sample->is_transmission || vertex->splits_always)) {

@@ -75,6 +75,46 @@ static void memory_is_counted_and_can_fail(void **state)
     ppm_context_destroy(context);
 }
 
+static void a_fork_keeps_its_messages_until_it_is_joined(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    const ppm_context_desc desc = {.size = sizeof desc, .log = record, .log_user = &log};
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(&desc, &context), PPM_STATUS_OK);
+    ppm_context *first = ppmi_context_fork(context), *second = ppmi_context_fork(context);
+    ppmi_log(second, PPM_LOG_WARNING, "early");
+    ppmi_fail(first, PPM_STATUS_INPUT_INVALID, "one");
+    ppmi_log(first, PPM_LOG_WARNING, "two");
+    assert_int_equal(log.count, 0);
+    ppmi_context_join(first);
+    assert_int_equal(log.count, 2);
+    assert_string_equal(log.text, "two");
+    char error[8];
+    ppm_context_last_error(context, error, sizeof error);
+    assert_string_equal(error, "one");
+    ppmi_context_join(second);
+    assert_string_equal(log.text, "early");
+    ppmi_context_join(NULL);
+    ppm_context_destroy(context);
+}
+
+static void a_fork_uses_the_memory_of_its_parent(void **state)
+{
+    (void)state;
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(NULL, &context), PPM_STATUS_OK);
+    ppm_context *fork = ppmi_context_fork(context);
+    void *block = ppmi_alloc(fork, 10, 1);
+    assert_int_equal(ppmi_alloc_live(context), 1);
+    ppmi_alloc_fail_at(context, 1);
+    assert_null(ppmi_alloc(fork, 10, 1));
+    ppmi_context_join(fork);
+    ppmi_free(context, block); /* lives on */
+    assert_int_equal(ppmi_alloc_live(context), 0);
+    ppm_context_destroy(context);
+}
+
 static void every_status_has_a_name(void **state)
 {
     (void)state;
@@ -89,6 +129,8 @@ int main(void)
         cmocka_unit_test(refuses_missing_out),
         cmocka_unit_test(failure_is_logged_and_kept),
         cmocka_unit_test(memory_is_counted_and_can_fail),
+        cmocka_unit_test(a_fork_keeps_its_messages_until_it_is_joined),
+        cmocka_unit_test(a_fork_uses_the_memory_of_its_parent),
         cmocka_unit_test(every_status_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
