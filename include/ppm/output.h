@@ -20,6 +20,9 @@ typedef struct ppm_output_options {
     const char *display; /* default: the configuration's */
     const char *view;    /* default: the display's */
     const char *command; /* for the EXR's metadata: how the picture was made; may be NULL */
+    uint32_t has_frame;  /* non-zero: the EXR's header says which frame it is */
+    int32_t frame;
+    double frames_per_second; /* with has_frame, above 0 */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and
@@ -31,7 +34,7 @@ PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
  *                      crop: its pixels are the data window, the whole picture the display window.
  *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
  *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
- *                      ppm:camera, ppm:command
+ *                      ppm:camera, ppm:command; of a frame ppm:frame, ppm:time (seconds), framesPerSecond
  *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
  * color may be NULL for .exr. options may be NULL.
  * Threads: not while another thread is in ppm_render_advance.

@@ -37,6 +37,11 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "ppm_output_options.exposure_ev is not finite");
     }
+    if (options->has_frame &&
+        !(options->frames_per_second > 0 && isfinite(options->frames_per_second))) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "ppm_output_options.frames_per_second is not above 0");
+    }
     return PPM_STATUS_OK;
 }
 
@@ -52,6 +57,9 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     ppmi_output_header header;
     ppmi_output_header_init(&header, rendered, &stats, ppmi_render_integrator_name(render), camera,
                             options->command);
+    if (options->has_frame) {
+        ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
+    }
     file->attributes = header.attributes;
     file->attribute_count = header.count;
     file->full_width = rendered->width;

@@ -123,3 +123,27 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
     add_text(header, "ppm:camera", camera);
     add_text(header, "ppm:command", command);
 }
+
+/* The fraction nearest to value: whole rates, and those of NTSC, are exact. */
+static void to_rational(double value, int32_t out[2])
+{
+    static const int32_t denominators[] = {1, 1001, 1000};
+    const double most = INT32_MAX / 1001.0;
+    out[0] = out[1] = 1;
+    for (int i = 0; i < 3; i++) {
+        const double numerator = round(fmin(value, most) * denominators[i]);
+        out[0] = (int32_t)numerator;
+        out[1] = denominators[i];
+        if (fabs(numerator / denominators[i] - value) < 1e-5 * value) break;
+    }
+}
+
+void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,
+                                  double frames_per_second)
+{
+    header->time_s = (float)(frame / frames_per_second);
+    add(header, "ppm:frame", PPMI_ATTRIBUTE_INT)->integer = frame;
+    add_floats(header, "ppm:time", &header->time_s, 1);
+    to_rational(frames_per_second,
+                add(header, "FramesPerSecond", PPMI_ATTRIBUTE_RATIONAL)->rational);
+}

@@ -5,7 +5,7 @@
 #include "imageio/imageio.h"
 #include "ppm/render.h"
 
-enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 20, PPMI_OUTPUT_COUNTS_MAX = 4 };
+enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 24, PPMI_OUTPUT_COUNTS_MAX = 4 };
 
 /* Attributes, with the texts that they point to: must not be copied or moved. */
 typedef struct ppmi_output_header {
@@ -13,6 +13,7 @@ typedef struct ppmi_output_header {
     uint32_t count;
     char software[32];
     char options[1024];
+    float time_s;
     char counts[PPMI_OUTPUT_COUNTS_MAX][24];
     uint32_t text_count; /* of counts */
 } ppmi_output_header;
@@ -21,6 +22,10 @@ typedef struct ppmi_output_header {
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
                              const ppm_render_stats *stats, const char *integrator,
                              const char *camera, const char *command);
+
+/* Adds which frame it is. frames_per_second is above 0. */
+void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,
+                                  double frames_per_second);
 
 /* The one line that files of other kinds carry. */
 void ppmi_output_header_init_display(ppmi_output_header *header);

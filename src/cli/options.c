@@ -13,7 +13,7 @@
 #include "ppm/ppm.h"
 #include "values.h"
 
-enum { DEFAULT_PASSES = 256, DEFAULT_PHOTONS_PER_EPOCH = 10000000 };
+enum { DEFAULT_PASSES = 256, DEFAULT_PHOTONS_PER_EPOCH = 10000000, DEFAULT_FPS = 24 };
 
 typedef enum value_kind {
     VALUE_SET,        /* no argument: stores .set in an int32_t */
@@ -30,6 +30,9 @@ typedef enum value_kind {
     VALUE_SHUTTER,    /* shutter_times */
     VALUE_CROP,       /* crop_window */
     VALUE_FILTER,     /* filter_choice, from a list of names */
+    VALUE_FRAME,      /* frame_choice: one */
+    VALUE_FRAMES,     /* frame_choice: several */
+    VALUE_LIST,       /* int32_t, from a list of names, may be missing; and the action */
     VALUE_CHOICE      /* int32_t, from a list of names */
 } value_kind;
 
@@ -75,16 +78,49 @@ static const choice transmissions[] = {{"auto", PPM_TRANSMISSION_POLICY_AUTO},
                                        {"thin", PPM_TRANSMISSION_POLICY_THIN},
                                        {NULL, 0}};
 
+static const choice lists[] = {{"table", LIST_TABLE}, {"json", LIST_JSON}, {NULL, 0}};
+
 #define FIELD(member) .field = offsetof(cli_options, member)
 static const option_row rows[] = {
     {"output", 'o', VALUE_OUTPUT, .argument = "FILE", .group = "Pictures",
      .help = "write the picture to FILE; may be repeated. The ending says the\n"
              "kind: .exr is scene-linear; .png .jpg .tif are for display\n"
-             "(default: INPUT's name as .exr and .png in the current folder)"},
+             "(default: INPUT's name as .exr and .png in the current folder).\n"
+             "In a sequence %04d or #### stands for the frame, %c for the camera"},
     {"size", 's', VALUE_SIZE, FIELD(size), .least = 1, .most = 65536, .argument = "WxH",
      .help = "pixels (default: 1280 wide, height from the camera's aspect)"},
     {"stats", 0, VALUE_TEXT, FIELD(stats), .argument = "FILE.json",
      .help = "write counts and timings to FILE.json at the end"},
+    {"skip-existing", 0, VALUE_SET, FIELD(skips_existing), .set = 1,
+     .help = "leave out pictures whose files are all there; a picture then\n"
+             "appears when it is finished, never before"},
+
+    {"list", 0, VALUE_LIST, FIELD(list), .choices = lists, .argument = "[=json]",
+     .group = "What is in the file",
+     .help = "show scenes, cameras, nodes, meshes, materials, lights, variants,\n"
+             "animations, images and what of it is not supported, and end"},
+    {"scene", 0, VALUE_TEXT, FIELD(scene), .argument = "NAME|N",
+     .help = "by name, or by number from 1 (default: the file's own)"},
+    {"variant", 0, VALUE_TEXT, FIELD(variant), .argument = "NAME",
+     .help = "of the materials (default: none)"},
+    {"strict", 0, VALUE_SET, FIELD(is_strict), .set = 1,
+     .help = "refuse a file that uses something which is not supported"},
+    {"allow-outside", 0, VALUE_SET, FIELD(allows_outside), .set = 1,
+     .help = "read files that INPUT names outside of its folder"},
+
+    {"frame", 0, VALUE_FRAME, FIELD(frames), .argument = "N", .group = "Animation",
+     .help = "the moment N / fps seconds into the animations (default: the\n"
+             "pose that the file has without them)"},
+    {"frames", 0, VALUE_FRAMES, FIELD(frames), .argument = "A-B[/STEP]",
+     .help = "one picture for each frame, in files like walk.0007.exr"},
+    {"fps", 0, VALUE_REAL, FIELD(fps), .low = 0.001, .high = 1e6, .argument = "F",
+     .help = "frames per second (default: 24)"},
+    {"animation", 0, VALUE_TEXT, FIELD(animation), .argument = "NAME|all",
+     .help = "which one is played (default: all, together)"},
+    {"motion-steps", 0, VALUE_INTEGER, FIELD(motion_steps), .least = 2,
+     .most = PPM_MAX_MOTION_STEPS, .argument = "N",
+     .help = "with --shutter: times at which what moves is looked at; between\n"
+             "them it moves on straight lines (default: 2)"},
 
     {"passes", 'n', VALUE_COUNT, FIELD(passes), .least = 1, .most = 1000000000, .argument = "N",
      .group = "When to stop", .help = "after N passes (default: 256; with --time no limit)"},
@@ -132,9 +168,9 @@ static const option_row rows[] = {
     {"threads", 0, VALUE_INTEGER, FIELD(threads), .least = 1, .most = 4096, .argument = "N",
      .help = "does not change the picture (default: all processors)"},
 
-    {"camera", 0, VALUE_TEXT, FIELD(camera), .argument = "NAME|N", .group = "Camera",
-     .help = "by name, or by number from 1 (default: the first; a file\n"
-             "without a camera is shown whole)"},
+    {"camera", 0, VALUE_TEXT, FIELD(camera), .argument = "NAME|N|all", .group = "Camera",
+     .help = "by name, by number from 1, or one after the other (default: the\n"
+             "first; a file without a camera is shown whole)"},
     {"aperture", 0, VALUE_REAL, FIELD(aperture), .low = 0.001, .high = 1e6, .argument = "F",
      .help = "f-number of a lens that blurs what is out of focus; less\n"
              "blurs more (default: the camera's own, else all is sharp)"},
@@ -142,8 +178,8 @@ static const option_row rows[] = {
      .help = "what is sharp: metres along the axis, or the name of a node\n"
              "(default: what is in the middle of the picture)"},
     {"shutter", 0, VALUE_SHUTTER, FIELD(shutter), .argument = "OPEN,CLOSE",
-     .help = "frames before and after the moment, as -0.25,0.25\n"
-             "(default: a moment)"},
+     .help = "motion blur: frames before and after the moment, as -0.25,0.25\n"
+             "(default: none)"},
     {"crop", 0, VALUE_CROP, FIELD(crop), .argument = "X0,Y0,X1,Y1",
      .help = "a part of the picture, in pixels from its upper left, X1 and\n"
              "Y1 excluded; or in shares, as 0.0,0.5,1.0,1.0"},
@@ -204,7 +240,8 @@ static void print_row(FILE *stream, const option_row *row)
     enum { HELP_COLUMN = 27 };
     char letter[5] = "    ";
     if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
-    int column = fprintf(stream, "  %s--%s%s%s", letter, row->name, row->argument ? " " : "",
+    const bool has_space = row->argument && row->kind != VALUE_LIST;
+    int column = fprintf(stream, "  %s--%s%s%s", letter, row->name, has_space ? " " : "",
                          row->argument ? row->argument : "");
     if (column >= HELP_COLUMN) {
         fputc('\n', stream);
@@ -229,6 +266,8 @@ void cli_options_print_help(FILE *stream)
     }
     fputs("\nExample: ten minutes for a picture of 1920x1080 pixels, two stops brighter\n"
           "  ppm-render -s 1920x1080 -t 600 --exposure 2 -o hall.exr -o hall.png hall.glb\n"
+          "Example: a second of an animation with motion blur; again, it goes on where it ended\n"
+          "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing -o walk.%04d.exr walk.glb\n"
           "\nExit status: 0 done (also when stopped by SIGINT or SIGTERM), 1 wrong usage,\n"
           "2 input not usable, 3 output not writable, 4 out of resources.\n",
           stream);
@@ -466,6 +505,37 @@ static int store_filter(const option_row *row, const char *text, filter_choice *
     return EXIT_DONE;
 }
 
+/* The later of --frame and --frames would win without a word; both being there is found by kind. */
+static int store_frames(const option_row *row, const char *text, frame_choice *field)
+{
+    frame_choice frames = {.is_given = true, .is_range = row->kind == VALUE_FRAMES};
+    if (field->is_given && field->is_range != frames.is_range) {
+        fputs("ppm-render: error: --frame and --frames both say what to render\n", stderr);
+        return give_hint();
+    }
+    if (frames.is_range) {
+        if (!frames_parse(text, &frames.range)) {
+            return complain(row, text,
+                            "frames like 1-24 or 1-24/2: whole numbers, at most a million of them");
+        }
+    } else {
+        if (!frames_parse_one(text, &frames.range.first)) {
+            return complain(row, text, "a whole number of at most 10000000, which may be below 0");
+        }
+        frames.range.last = frames.range.first;
+        frames.range.step = 1;
+    }
+    *field = frames;
+    return EXIT_DONE;
+}
+
+static int store_list(const option_row *row, const char *text, cli_options *options)
+{
+    options->action = ACTION_LIST;
+    options->list = LIST_TABLE;
+    return text ? store_name(row, text, strlen(text), &options->list) : EXIT_DONE;
+}
+
 /* outputs has room for one entry per word of argv, so appending never allocates. */
 static int store(const option_row *row, const char *text, cli_options *options)
 {
@@ -504,6 +574,11 @@ static int store(const option_row *row, const char *text, cli_options *options)
         return store_crop(row, text, field);
     case VALUE_FILTER:
         return store_filter(row, text, field);
+    case VALUE_FRAME:
+    case VALUE_FRAMES:
+        return store_frames(row, text, field);
+    case VALUE_LIST:
+        return store_list(row, text, options);
     }
     return EXIT_USAGE;
 }
@@ -516,6 +591,12 @@ typedef struct getopt_tables {
     struct option names[ROW_COUNT + 1];
 } getopt_tables;
 
+static int argument_need(value_kind kind)
+{
+    if (kind == VALUE_LIST) return optional_argument;
+    return kind == VALUE_SET ? no_argument : required_argument;
+}
+
 /* Long options answer with FIRST_LONG + row, so that the row is at hand. */
 static void fill_tables(getopt_tables *tables)
 {
@@ -523,13 +604,12 @@ static void fill_tables(getopt_tables *tables)
     char *letter = tables->letters;
     *letter++ = ':'; /* a missing argument answers ':' instead of '?' */
     for (size_t i = 0; i < ROW_COUNT; i++) {
-        const bool has_argument = rows[i].kind != VALUE_SET;
         tables->names[i].name = rows[i].name;
-        tables->names[i].has_arg = has_argument ? required_argument : no_argument;
+        tables->names[i].has_arg = argument_need(rows[i].kind);
         tables->names[i].val = FIRST_LONG + (int)i;
         if (!rows[i].letter) continue;
         *letter++ = rows[i].letter;
-        if (has_argument) *letter++ = ':';
+        if (rows[i].kind != VALUE_SET) *letter++ = ':';
     }
 }
 
@@ -594,17 +674,73 @@ static int parse_words(int argc, char **argv, cli_options *options)
 /* An option that would do nothing is a mistake. */
 static int check_together(const cli_options *options)
 {
-    if (options->environment_rotation_deg != 0.0 && !options->environment) {
-        fputs("ppm-render: error: --env-rotation turns the picture of --env, which is not given\n",
-              stderr);
+    const bool has_sky = options->environment || options->sun.is_given;
+    const bool has_frames = options->frames.is_given;
+    const bool has_blur = has_frames && options->shutter.close > options->shutter.open;
+    const struct {
+        bool is_idle;
+        const char *message;
+    } rules[] = {
+        {options->environment_rotation_deg != 0.0 && !options->environment,
+         "--env-rotation turns the picture of --env, which is not given"},
+        {options->environment_intensity > 0.0 && !has_sky,
+         "--env-intensity is about --env and --sun, neither of which is given"},
+        {options->fps > 0.0 && !has_frames,
+         "--fps is about --frame and --frames, neither of which is given"},
+        {options->animation && !has_frames,
+         "--animation is played by --frame and --frames, neither of which is given"},
+        {options->motion_steps > 0 && !has_blur,
+         "--motion-steps is about --shutter with --frame or --frames, which are not all given"},
+        {options->epochs > 0 && options->passes > 0,
+         "--epochs and --passes both say when to stop"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+        if (!rules[i].is_idle) continue;
+        fprintf(stderr, "ppm-render: error: %s\n", rules[i].message);
         return give_hint();
     }
-    if (options->environment_intensity > 0.0 && !options->environment && !options->sun.is_given) {
-        fputs("ppm-render: error: --env-intensity is about --env and --sun, neither of which is "
-              "given\n",
-              stderr);
+    return EXIT_DONE;
+}
+
+/* "all" is a word, whatever the file calls its cameras and animations; those have numbers, too. */
+static void take_all(cli_options *options)
+{
+    if (options->camera && strcmp(options->camera, "all") == 0) {
+        options->all_cameras = true;
+        options->camera = NULL;
+    }
+    if (options->animation && strcmp(options->animation, "all") == 0) options->animation = NULL;
+}
+
+static void fill_defaults(cli_options *options)
+{
+    const bool has_epochs = options->epochs > 0; /* passes follow from the photons of a pass */
+    if (has_epochs && options->photons_per_epoch == 0) {
+        options->photons_per_epoch = DEFAULT_PHOTONS_PER_EPOCH;
+    }
+    if (!has_epochs && options->passes == 0 && !(options->seconds > 0.0)) {
+        options->passes = DEFAULT_PASSES;
+    }
+    if (!(options->fps > 0.0)) options->fps = DEFAULT_FPS;
+}
+
+/* What is left of the words is INPUT. */
+static int take_input(int argc, char **argv, cli_options *options)
+{
+    if (optind == argc) {
+        fputs("ppm-render: error: no INPUT file\n", stderr);
         return give_hint();
     }
+    if (optind + 1 < argc) {
+        const char *const first = argv[optind], *const second = argv[optind + 1];
+        fprintf(stderr, "ppm-render: error: one INPUT at a time; besides '%s' there is '%s'\n",
+                first, second);
+        if (options->list && strcmp(first, "json") == 0) {
+            fputs("For JSON write --list=json.\n", stderr);
+        }
+        return give_hint();
+    }
+    options->input = argv[optind];
     return EXIT_DONE;
 }
 
@@ -616,32 +752,15 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
         fputs("ppm-render: error: out of memory\n", stderr);
         return EXIT_RESOURCES;
     }
-    const int status = parse_words(argc, argv, out_options);
-    if (status != EXIT_DONE || out_options->action != ACTION_RENDER) return status;
-    if (optind == argc) {
-        fputs("ppm-render: error: no INPUT file\n", stderr);
-        return give_hint();
-    }
-    if (optind + 1 < argc) {
-        fprintf(stderr, "ppm-render: error: one INPUT at a time; besides '%s' there is '%s'\n",
-                argv[optind], argv[optind + 1]);
-        return give_hint();
-    }
-    out_options->input = argv[optind];
-    if (out_options->epochs > 0 && out_options->passes > 0) {
-        fputs("ppm-render: error: --epochs and --passes both say when to stop\n", stderr);
-        return give_hint();
-    }
-    if (out_options->epochs > 0) {
-        if (out_options->photons_per_epoch == 0) {
-            out_options->photons_per_epoch = DEFAULT_PHOTONS_PER_EPOCH;
-        }
-        return EXIT_DONE; /* passes follow from the photons of a pass */
-    }
-    if (out_options->passes == 0 && !(out_options->seconds > 0.0)) {
-        out_options->passes = DEFAULT_PASSES;
-    }
-    return check_together(out_options);
+    int status = parse_words(argc, argv, out_options);
+    const int32_t action = out_options->action;
+    const bool needs_input = action == ACTION_RENDER || action == ACTION_LIST;
+    if (status != EXIT_DONE || !needs_input) return status;
+    status = take_input(argc, argv, out_options);
+    if (status == EXIT_DONE) status = check_together(out_options);
+    take_all(out_options);
+    fill_defaults(out_options);
+    return status;
 }
 
 void cli_options_deinit(cli_options *options)

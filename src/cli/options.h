@@ -8,8 +8,10 @@
 #include <stdio.h>
 
 #include "exit_status.h"
+#include "frames.h"
 
-enum { ACTION_RENDER = 0, ACTION_HELP, ACTION_VERSION, ACTION_LIST_VIEWS };
+enum { ACTION_RENDER = 0, ACTION_HELP, ACTION_VERSION, ACTION_LIST_VIEWS, ACTION_LIST };
+enum { LIST_NONE = 0, LIST_TABLE, LIST_JSON };
 enum { VERBOSITY_QUIET = -1, VERBOSITY_NORMAL = 0, VERBOSITY_VERBOSE = 1 };
 
 typedef struct image_size {
@@ -47,6 +49,13 @@ typedef struct filter_choice {
     double width; /* pixels; 0: not said */
 } filter_choice;
 
+/* The moments that are rendered; a still picture where none is given. */
+typedef struct frame_choice {
+    bool is_given;
+    bool is_range; /* by --frames */
+    frame_range range;
+} frame_choice;
+
 /* 0 or NULL: not given, unless a comment says otherwise. Strings belong to argv. */
 typedef struct cli_options {
     int32_t action;    /* ACTION_ */
@@ -55,6 +64,18 @@ typedef struct cli_options {
     const char **outputs; /* output_count paths; owned */
     size_t output_count;
     const char *stats;
+    int32_t skips_existing;
+
+    int32_t list; /* LIST_ */
+    const char *scene;   /* a name, or a number from 1 */
+    const char *variant; /* a name */
+    int32_t is_strict;
+    int32_t allows_outside;
+
+    frame_choice frames; /* by --frame or --frames */
+    double fps;          /* a default has been filled in */
+    const char *animation; /* a name; NULL: all */
+    uint64_t motion_steps;
 
     uint64_t passes; /* a default has been filled in unless there is a time */
     double seconds;
@@ -74,7 +95,8 @@ typedef struct cli_options {
     uint64_t seed;
     uint64_t threads;
 
-    const char *camera;
+    const char *camera; /* a name, or a number from 1 */
+    bool all_cameras;
     double aperture;   /* f-number */
     const char *focus; /* metres, or the name of a node */
     shutter_times shutter;

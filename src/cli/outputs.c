@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "clock.h"
 
@@ -27,18 +28,29 @@ static char *stem_with_ending(const char *path, const char *ending)
     return result;
 }
 
-static bool add_paths(cli_outputs *outputs, const cli_options *options)
+/* INPUT's name with an ending. What looks like a place in it is none. */
+static char *default_pattern(const cli_outputs *outputs, const char *input, const char *ending)
+{
+    char *const name = stem_with_ending(input, ending);
+    char *const pattern = name ? pattern_escape(name, &outputs->use) : NULL;
+    free(name);
+    return pattern;
+}
+
+static bool add_patterns(cli_outputs *outputs, const cli_options *options)
 {
     static const char *const default_endings[] = {".exr", ".png"};
     const size_t count = options->output_count ? options->output_count : 2;
+    outputs->patterns = calloc(count, sizeof *outputs->patterns);
     outputs->paths = calloc(count, sizeof *outputs->paths);
-    if (!outputs->paths) return false;
+    if (!outputs->patterns || !outputs->paths) return false;
     for (; outputs->count < count; outputs->count++) {
+        const size_t i = outputs->count;
         char *const path = options->output_count
-                               ? strdup(options->outputs[outputs->count])
-                               : stem_with_ending(options->input, default_endings[outputs->count]);
+                               ? strdup(options->outputs[i])
+                               : default_pattern(outputs, options->input, default_endings[i]);
         if (!path) return false;
-        outputs->paths[outputs->count] = path;
+        outputs->patterns[outputs->count] = path;
     }
     return true;
 }
@@ -94,18 +106,69 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
         .display = options->display,
         .view = options->view,
         .command = outputs->command,
+        .frames_per_second = options->fps,
     };
-    if (outputs->command && add_paths(outputs, options)) return EXIT_DONE;
+    outputs->use = (pattern_use){.has_frame = options->frames.is_given,
+                                 .needs_frame = options->frames.is_range,
+                                 .has_camera = options->all_cameras};
+    if (outputs->command && add_patterns(outputs, options)) return EXIT_DONE;
     fputs("ppm-render: error: out of memory\n", stderr);
     return EXIT_RESOURCES;
 }
 
 void outputs_deinit(cli_outputs *outputs)
 {
-    for (size_t i = 0; i < outputs->count; i++)
+    for (size_t i = 0; i < outputs->count; i++) {
+        free(outputs->patterns[i]);
         free(outputs->paths[i]);
+    }
+    free(outputs->patterns);
     free(outputs->paths);
     free(outputs->command);
+}
+
+int outputs_check_names(const cli_outputs *outputs, cli_console *console)
+{
+    const char *unnumbered = NULL;
+    for (size_t i = 0; i < outputs->count; i++) {
+        const char *const pattern = outputs->patterns[i];
+        const char *const fault = pattern_fault(pattern, &outputs->use);
+        if (fault) {
+            console_message(console, PPM_LOG_ERROR, "--output: '%s': %s", pattern, fault);
+            return EXIT_USAGE;
+        }
+        if (!unnumbered && !pattern_has_frame(pattern)) unnumbered = pattern;
+    }
+    if (outputs->use.needs_frame && unnumbered) {
+        console_message(console, PPM_LOG_INFO,
+                        "'%s' has no place for the frame (%%04d or ####): it is put before the "
+                        "ending, as in %s",
+                        unnumbered, outputs->paths[0]);
+    }
+    return EXIT_DONE;
+}
+
+int outputs_select(cli_outputs *outputs, const cli_picture *picture)
+{
+    const char *const camera = picture->camera_name ? picture->camera_name : "camera";
+    for (size_t i = 0; i < outputs->count; i++) {
+        free(outputs->paths[i]);
+        outputs->paths[i] =
+            pattern_fill(outputs->patterns[i], &outputs->use, picture->frame, camera);
+        if (!outputs->paths[i]) return EXIT_RESOURCES;
+    }
+    outputs->options.has_frame = picture->has_frame;
+    outputs->options.frame = picture->frame;
+    outputs->seconds_refreshed = 0.0;
+    return EXIT_DONE;
+}
+
+bool outputs_exist(const cli_outputs *outputs)
+{
+    for (size_t i = 0; i < outputs->count; i++) {
+        if (access(outputs->paths[i], F_OK) != 0) return false;
+    }
+    return true;
 }
 
 int outputs_check(const cli_outputs *outputs, ppm_context *context)

@@ -3,14 +3,20 @@
 #ifndef PPM_CLI_OUTPUTS_H
 #define PPM_CLI_OUTPUTS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
+#include "console.h"
+#include "file_pattern.h"
 #include "options.h"
+#include "pictures.h"
 #include "ppm/ppm.h"
 
 typedef struct cli_outputs {
     size_t count;
-    char **paths;
+    char **patterns; /* names as they are asked for */
+    char **paths;    /* of the present picture */
+    pattern_use use;
     char *command; /* the command line, for the pictures' metadata */
     ppm_output_options options;
     const ppm_color *color;
@@ -24,6 +30,16 @@ typedef struct cli_outputs {
 int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_color *color, int argc,
                  char **argv);
 void outputs_deinit(cli_outputs *outputs);
+
+/* Whether the names have the places that they need, and no others; says what is wrong, and where a
+ * frame's number is put in. Returns EXIT_DONE or EXIT_USAGE. */
+int outputs_check_names(const cli_outputs *outputs, cli_console *console);
+
+/* Turns to a picture: fills in the names. Returns EXIT_DONE or EXIT_RESOURCES. */
+int outputs_select(cli_outputs *outputs, const cli_picture *picture);
+
+/* Whether all files of the present picture are there. */
+bool outputs_exist(const cli_outputs *outputs);
 
 /* Whether each could be written. The library has said what is wrong. Returns an exit status. */
 int outputs_check(const cli_outputs *outputs, ppm_context *context);

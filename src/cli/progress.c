@@ -8,10 +8,19 @@ static const double PLAIN_LINE_EVERY_S = 10.0;
 
 void progress_init(cli_progress *progress, uint64_t pass_limit, double seconds_limit)
 {
-    progress->pass_limit = pass_limit;
-    progress->seconds_limit = seconds_limit;
-    progress->seconds_shown = 0.0;
-    progress->next_pass_shown = 1;
+    *progress = (cli_progress){.pass_limit = pass_limit,
+                               .seconds_limit = seconds_limit,
+                               .next_pass_shown = 1,
+                               .label = ""};
+}
+
+void progress_set_sequence(cli_progress *progress, const char *label, uint64_t pictures_after,
+                           double seconds_per_picture)
+{
+    progress->label = label;
+    progress->pictures_after = pictures_after;
+    progress->seconds_per_picture = seconds_per_picture;
+    progress->next_pass_shown = UINT64_MAX;
 }
 
 bool progress_is_done(const cli_progress *progress, uint64_t passes, double elapsed)
@@ -41,7 +50,16 @@ static double seconds_left(const cli_progress *progress, uint64_t passes, double
     return fmax(left, 0.0);
 }
 
-static void format_duration(double seconds, char *buffer, size_t buffer_size)
+/* Pictures to come take as long as those before did, or as this one seems to. */
+static double seconds_left_of_all(const cli_progress *progress, uint64_t passes, double elapsed)
+{
+    const double left = seconds_left(progress, passes, elapsed);
+    const double each = progress->seconds_per_picture > 0.0 ? progress->seconds_per_picture
+                                                            : elapsed + left;
+    return left + (double)progress->pictures_after * each;
+}
+
+const char *progress_duration(double seconds, char *buffer, size_t buffer_size)
 {
     const unsigned long long whole = (unsigned long long)ceil(seconds);
     if (whole < 3600) {
@@ -50,6 +68,7 @@ static void format_duration(double seconds, char *buffer, size_t buffer_size)
         snprintf(buffer, buffer_size, "%llu:%02llu:%02llu", whole / 3600, whole / 60 % 60,
                  whole % 60);
     }
+    return buffer;
 }
 
 /* A path tracer emits no photons; its rays are counted instead. */
@@ -70,9 +89,9 @@ const char *progress_line(const cli_progress *progress, const ppm_render_stats *
     if (progress->pass_limit > 0) {
         snprintf(limit, sizeof limit, "/%llu", (unsigned long long)progress->pass_limit);
     }
-    format_duration(seconds_left(progress, stats->passes, elapsed), left, sizeof left);
+    progress_duration(seconds_left_of_all(progress, stats->passes, elapsed), left, sizeof left);
     format_rate(stats, rate, sizeof rate);
-    snprintf(buffer, buffer_size, "pass %llu%s  %3.0f%%  %s  %s left",
+    snprintf(buffer, buffer_size, "%spass %llu%s  %3.0f%%  %s  %s left", progress->label,
              (unsigned long long)stats->passes, limit,
              floor(100.0 * share_done(progress, stats->passes, elapsed)), rate, left);
     return buffer;
@@ -87,6 +106,6 @@ void progress_show(cli_progress *progress, cli_console *console, const ppm_rende
     while (progress->next_pass_shown <= stats->passes)
         progress->next_pass_shown *= 2;
     progress->seconds_shown = elapsed;
-    char line[160];
+    char line[320];
     console_progress(console, progress_line(progress, stats, elapsed, line, sizeof line));
 }

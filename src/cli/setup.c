@@ -3,12 +3,9 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "base/suggest.h"
+#include "choose.h"
 #include "focus.h"
-#include "values.h"
 
 static float radians(double degrees)
 {
@@ -79,57 +76,35 @@ static ppm_status add_fog(ppm_scene *scene, const fog_values *fog)
     return s > 0.0f || a > 0.0f ? ppm_scene_set_fog(scene, &desc) : PPM_STATUS_OK;
 }
 
-int setup_scene(ppm_scene *scene, const cli_options *options)
+ppm_status setup_surroundings(ppm_scene *scene, const cli_options *options)
 {
-    const ppm_import_options import_options = {.size = sizeof import_options,
-                                               .light_units = options->light_units,
-                                               .transmission = options->transmission};
-    ppm_status status = ppm_scene_import(scene, options->input, &import_options);
-    const bool has_surroundings =
+    const bool is_surrounded =
         options->environment || options->background.kind != BACKGROUND_UNSAID;
-    if (status == PPM_STATUS_OK && has_surroundings) status = set_environment(scene, options);
+    ppm_status status = is_surrounded ? set_environment(scene, options) : PPM_STATUS_OK;
     if (status == PPM_STATUS_OK && options->sun.is_given) status = add_sun(scene, options);
     if (status == PPM_STATUS_OK) status = add_fog(scene, &options->fog);
-    return exit_status_of(status, EXIT_INPUT);
+    return status;
 }
 
-static int no_such_camera(cli_console *console, const ppm_scene *scene, const char *text)
+static const char *camera_name(const void *user, uint32_t index)
 {
-    const uint32_t count = ppm_scene_camera_count(scene);
-    if (count == 0) {
-        console_message(console, PPM_LOG_ERROR, "--camera: '%s': the file has no camera", text);
-        return EXIT_USAGE;
-    }
-    const char **names = calloc(count, sizeof *names);
-    if (!names) return EXIT_RESOURCES;
-    for (uint32_t i = 0; i < count; i++)
-        names[i] = ppm_scene_camera_name(scene, i + 1);
-    const char *const nearest = ppmi_suggest(text, names, count);
-    console_message(console, PPM_LOG_ERROR,
-                    "--camera: no camera '%s'; there %s %u, the first is '%s'%s%s%s", text,
-                    count == 1 ? "is" : "are", count, names[0], nearest ? "; did you mean '" : "",
-                    nearest ? nearest : "", nearest ? "'?" : "");
-    free(names);
-    return EXIT_USAGE;
+    return ppm_scene_camera_name(user, index + 1);
 }
 
-/* A name wins over a number: a camera may be called "2". Ids count from 1 in the file's order. */
+/* Ids count from 1 in the file's order. */
 static int find_camera(cli_console *console, const ppm_scene *scene, const char *text,
                        ppm_camera_id *out_camera)
 {
-    const uint32_t count = ppm_scene_camera_count(scene);
-    for (ppm_camera_id id = 1; id <= count; id++) {
-        if (strcmp(ppm_scene_camera_name(scene, id), text) == 0) {
-            *out_camera = id;
-            return EXIT_DONE;
-        }
-    }
-    uint64_t number = 0;
-    if (!value_parse_integer(text, &number) || number < 1 || number > count) {
-        return no_such_camera(console, scene, text);
-    }
-    *out_camera = (ppm_camera_id)number;
-    return EXIT_DONE;
+    const choice_list list = {.option = "--camera",
+                              .thing = "camera",
+                              .has_numbers = true,
+                              .count = ppm_scene_camera_count(scene),
+                              .name_of = camera_name,
+                              .user = scene};
+    uint32_t index = 0;
+    const int result = choose(console, &list, text, &index);
+    if (result == EXIT_DONE) *out_camera = index + 1;
+    return result;
 }
 
 /* Distances are from a camera: one that the library would add as the render begins is needed now.
@@ -179,9 +154,10 @@ static int set_crop(const ppm_scene *scene, const crop_window *crop,
 }
 
 static int set_camera(cli_console *console, ppm_scene *scene, const cli_options *options,
-                      ppm_render_options *render_options)
+                      const cli_picture *picture, ppm_render_options *render_options)
 {
     int result = EXIT_DONE;
+    render_options->camera = picture->camera;
     if (options->camera) {
         result = find_camera(console, scene, options->camera, &render_options->camera);
     }
@@ -195,7 +171,7 @@ static int set_camera(cli_console *console, ppm_scene *scene, const cli_options 
 }
 
 int setup_render_options(cli_console *console, ppm_scene *scene, const cli_options *options,
-                         ppm_render_options *out_render_options)
+                         const cli_picture *picture, ppm_render_options *out_render_options)
 {
     *out_render_options = (ppm_render_options){
         .size = sizeof *out_render_options,
@@ -211,7 +187,7 @@ int setup_render_options(cli_console *console, ppm_scene *scene, const cli_optio
         .max_depth = (uint32_t)options->max_depth,
         .radius_m = (float)options->radius_m,
         .alpha = (float)options->alpha,
-        .seed = options->seed,
+        .seed = picture->has_frame ? frames_seed(options->seed, picture->frame) : options->seed,
         .threads = (uint32_t)options->threads,
         .aperture_f_number = (float)options->aperture,
         .shutter_open = (float)options->shutter.open,
@@ -219,5 +195,5 @@ int setup_render_options(cli_console *console, ppm_scene *scene, const cli_optio
         .pixel_filter = options->filter.kind,
         .pixel_filter_width = (float)options->filter.width,
     };
-    return set_camera(console, scene, options, out_render_options);
+    return set_camera(console, scene, options, picture, out_render_options);
 }

@@ -4,15 +4,15 @@
 
 #include "console.h"
 #include "options.h"
+#include "pictures.h"
 #include "ppm/ppm.h"
 
-/* Imports INPUT into scene, and adds the environment and the sun that are asked for. Returns an
- * exit status; the library has said what is wrong. */
-int setup_scene(ppm_scene *scene, const cli_options *options);
+/* Adds the environment, the sun and the fog that are asked for to an imported scene. */
+ppm_status setup_surroundings(ppm_scene *scene, const cli_options *options);
 
-/* Fills in the settings, with camera and focus looked up. A scene without a camera gets one if
+/* Fills in the settings of a picture, with camera and focus looked up. A scene without a camera gets one if
  * something in it is to be in focus. Returns an exit status; what is wrong has been said. */
 int setup_render_options(cli_console *console, ppm_scene *scene, const cli_options *options,
-                         ppm_render_options *out_render_options);
+                         const cli_picture *picture, ppm_render_options *out_render_options);
 
 #endif

@@ -12,7 +12,7 @@
 
 #include "options.h"
 
-enum { STEP_STARTING, STEP_FIRST_PASS, STEP_PASSES, STEP_ENDING };
+enum { STEP_STARTING, STEP_FIRST_PASS, STEP_PASSES, STEP_BETWEEN, STEP_ENDING };
 
 /* A handler can be reached only through globals. */
 static _Atomic(ppm_render *) watched_render;
@@ -36,6 +36,9 @@ static void stop(void)
     case STEP_FIRST_PASS:
         say("\nppm-render: stopping after the first pass; once more to end at once\n");
         break;
+    case STEP_BETWEEN:
+        say("\nppm-render: stopped between two pictures; those before are complete\n");
+        _exit(EXIT_SIGNAL);
     case STEP_PASSES:
         ppm_render_cancel(atomic_load(&watched_render));
         break;
@@ -72,17 +75,28 @@ void signals_enter_first_pass(ppm_render *render)
     atomic_store(&step, STEP_FIRST_PASS);
 }
 
-void signals_enter_passes(void)
+void signals_enter_passes(ppm_render *render)
 {
+    atomic_store(&watched_render, render);
     atomic_store(&step, STEP_PASSES);
+}
+
+/* A handler that began before may still hold the render, on another thread. */
+static void leave_for(int next)
+{
+    atomic_store(&step, next);
+    while (atomic_load(&handlers_running) > 0)
+        sched_yield();
+}
+
+void signals_leave_picture(void)
+{
+    leave_for(STEP_BETWEEN);
 }
 
 void signals_leave_render(void)
 {
-    atomic_store(&step, STEP_ENDING);
-    /* one that began before may still hold the render, on another thread */
-    while (atomic_load(&handlers_running) > 0)
-        sched_yield();
+    leave_for(STEP_ENDING);
 }
 
 bool signals_stop_requested(void)

@@ -12,7 +12,8 @@
 
 #include <jansson.h>
 
-#include "options.h"
+#include "clock.h"
+#include "features_json.h"
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
@@ -93,7 +94,7 @@ static int report(cli_console *console, const char *path, int error)
     return error == ENOMEM ? EXIT_RESOURCES : EXIT_OUTPUT;
 }
 
-int stats_json_check(cli_console *console, const char *path)
+static int check_path(cli_console *console, const char *path)
 {
     struct stat found;
     if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) return report(console, path, EISDIR);
@@ -176,11 +177,11 @@ static json_t *counts_json(const ppm_render_stats *stats)
                      "threads", count_json(stats->threads));
 }
 
-static json_t *times_json(const ppm_render_stats *stats, const stats_times *times)
+static json_t *times_json(const ppm_render_stats *stats, double total_s, double import_s)
 {
     return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o}", //
-                     "seconds_total", times->total_s,                      //
-                     "seconds_import", times->import_s,                    //
+                     "seconds_total", total_s,                      //
+                     "seconds_import", import_s,                    //
                      "seconds_build", stats->seconds_build,                //
                      "seconds_render", stats->seconds_render,              //
                      "seconds_eye", stats->seconds_eye,                    //
@@ -192,36 +193,128 @@ static json_t *times_json(const ppm_render_stats *stats, const stats_times *time
                      "peak_memory_bytes", count_json(peak_memory_bytes()));
 }
 
-static json_t *render_json(const ppm_render *render, const stats_times *times)
+static json_t *render_json(const ppm_render *render, double total_s, double import_s)
 {
     ppm_render_stats stats = {.size = sizeof stats};
     if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return NULL;
     json_t *const result = settings_json(ppm_render_get_options(render));
     if (!result) return NULL;
     json_object_update_new(result, counts_json(&stats));
-    json_object_update_new(result, times_json(&stats, times));
+    json_object_update_new(result, times_json(&stats, total_s, import_s));
     return result;
 }
 
-int stats_json_write(cli_console *console, const char *path, const ppm_scene *scene,
-                     const ppm_render *render, const stats_times *times)
+static json_t *files_json(const cli_outputs *outputs)
 {
-    json_t *const root = json_pack("{s:s, s:o, s:o}", "version", ppm_version(), "scene",
-                                   scene_json(scene), "render", render_json(render, times));
-    if (!root) return report(console, path, ENOMEM);
-    new_file file;
-    int error = new_file_open(&file, path);
-    if (error == 0) {
-        const size_t layout = JSON_INDENT(2) | JSON_REAL_PRECISION(9);
-        const bool is_written =
-            json_dumpf(root, file.stream, layout) == 0 && fputc('\n', file.stream) != EOF;
-        if (is_written) {
-            error = new_file_publish(&file, path);
-        } else {
-            error = errno ? errno : EIO;
-            new_file_drop(&file);
-        }
+    json_t *const files = json_array();
+    for (size_t i = 0; files && i < outputs->count; i++)
+        json_array_append_new(files, text_json(outputs->paths[i]));
+    return files;
+}
+
+/* Which picture it is, and its render. */
+static json_t *picture_json(const cli_stats *stats, const stats_source *source)
+{
+    const ppm_camera_id camera = ppm_render_get_options(source->render)->camera;
+    const double total_s = clock_seconds() - stats->seconds_begin;
+    json_t *const result = json_object();
+    if (source->picture->has_frame) {
+        json_object_set_new(result, "frame", json_integer(source->picture->frame));
+        json_object_set_new(result, "time_s", json_real(source->picture->time_s));
     }
+    json_object_set_new(result, "camera", text_json(ppm_scene_camera_name(source->scene, camera)));
+    json_object_set_new(result, "files", files_json(source->outputs));
+    json_object_set_new(result, "render", render_json(source->render, total_s, source->import_s));
+    return result;
+}
+
+/* NULL when memory is out. */
+static json_t *root_json(const cli_stats *stats, const stats_source *source, json_t *picture)
+{
+    json_t *const root = json_object();
+    json_object_set_new(root, "version", json_string(ppm_version()));
+    json_object_set_new(root, "scene", scene_json(source->scene));
+    json_object_set_new(root, "features", features_json(source->asset));
+    if (!stats->is_list) {
+        json_object_update(root, picture);
+        return root;
+    }
+    json_object_set_new(root, "skipped", count_json(source->skipped));
+    json_object_set(root, "pictures", stats->pictures);
+    return root;
+}
+
+/* ---- writing --------------------------------------------------------------------------------- */
+
+/* Returns 0 or an errno. */
+static int write_root(const char *path, const json_t *root)
+{
+    new_file file;
+    const size_t layout = JSON_INDENT(2) | JSON_REAL_PRECISION(9);
+    const int error = new_file_open(&file, path);
+    if (error != 0) return error;
+    if (json_dumpf(root, file.stream, layout) == 0 && fputc('\n', file.stream) != EOF) {
+        return new_file_publish(&file, path);
+    }
+    const int failure = errno ? errno : EIO;
+    new_file_drop(&file);
+    return failure;
+}
+
+/* A name with a place in it is one of a file for each picture; without one it is taken as it is. */
+void stats_init(cli_stats *stats, const cli_options *options, double seconds_begin)
+{
+    const pattern_use all = {.has_frame = options->frames.is_given,
+                             .needs_frame = options->frames.is_range,
+                             .has_camera = options->all_cameras};
+    const bool is_sequence = options->frames.is_range || options->all_cameras;
+    *stats = (cli_stats){.pattern = options->stats, .seconds_begin = seconds_begin};
+    if (!options->stats) return;
+    if (pattern_has_place(options->stats)) {
+        stats->use = all;
+    } else {
+        stats->is_list = is_sequence;
+    }
+    if (stats->is_list) stats->pictures = json_array();
+}
+
+void stats_deinit(cli_stats *stats)
+{
+    json_decref(stats->pictures);
+    stats->pictures = NULL;
+}
+
+static char *path_of(const cli_stats *stats, const cli_picture *picture)
+{
+    const char *const camera = picture->camera_name ? picture->camera_name : "camera";
+    return pattern_fill(stats->pattern, &stats->use, picture->frame, camera);
+}
+
+int stats_check(const cli_stats *stats, cli_console *console, const cli_picture *first)
+{
+    if (!stats->pattern) return EXIT_DONE;
+    const char *const fault = pattern_fault(stats->pattern, &stats->use);
+    if (fault) {
+        console_message(console, PPM_LOG_ERROR, "--stats: '%s': %s", stats->pattern, fault);
+        return EXIT_USAGE;
+    }
+    char *const path = path_of(stats, first);
+    const int result = path ? check_path(console, path) : report(console, stats->pattern, ENOMEM);
+    free(path);
+    return result;
+}
+
+int stats_add(cli_stats *stats, cli_console *console, const stats_source *source)
+{
+    if (!stats->pattern) return EXIT_DONE;
+    char *const path = path_of(stats, source->picture);
+    json_t *const picture = picture_json(stats, source);
+    if (stats->is_list && picture) json_array_append(stats->pictures, picture);
+    json_t *const root = picture ? root_json(stats, source, picture) : NULL;
+    const int error = path && root ? write_root(path, root) : ENOMEM;
+    const int result = error == 0 ? EXIT_DONE : report(console, stats->pattern, error);
     json_decref(root);
-    return error == 0 ? EXIT_DONE : report(console, path, error);
+    json_decref(picture);
+    free(path);
+    return result;
 }

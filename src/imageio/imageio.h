@@ -35,7 +35,13 @@ ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, siz
                                     const char *name, ppmi_pixels *out_pixels);
 void ppmi_imageio_pixels_free(ppm_context *context, ppmi_pixels *pixels);
 
-enum { PPMI_ATTRIBUTE_STRING, PPMI_ATTRIBUTE_INT, PPMI_ATTRIBUTE_FLOAT, PPMI_ATTRIBUTE_FLOATS };
+enum {
+    PPMI_ATTRIBUTE_STRING,
+    PPMI_ATTRIBUTE_INT,
+    PPMI_ATTRIBUTE_FLOAT,
+    PPMI_ATTRIBUTE_FLOATS,
+    PPMI_ATTRIBUTE_RATIONAL
+};
 
 /* One header entry. */
 typedef struct ppmi_image_attribute {
@@ -45,6 +51,7 @@ typedef struct ppmi_image_attribute {
     int64_t integer;     /* written as int where it fits, else as a decimal string */
     const float *floats; /* FLOATS: float_count values (8: chromaticities); FLOAT: the first */
     uint32_t float_count;
+    int32_t rational[2]; /* RATIONAL: numerator and denominator */
 } ppmi_image_attribute;
 
 enum { PPMI_STORE_U8, PPMI_STORE_U16, PPMI_STORE_HALF, PPMI_STORE_FLOAT };

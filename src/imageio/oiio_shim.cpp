@@ -184,6 +184,11 @@ static void set_attribute(ImageSpec &spec, const ppmi_image_attribute &attribute
         spec.attribute(attribute.name, TypeDesc(TypeDesc::FLOAT, (int)attribute.float_count),
                        attribute.floats);
         break;
+    case PPMI_ATTRIBUTE_RATIONAL:
+        spec.attribute(attribute.name,
+                       TypeDesc(TypeDesc::INT, TypeDesc::VEC2, TypeDesc::RATIONAL),
+                       attribute.rational);
+        break;
     }
 }
 

@@ -1,0 +1,140 @@
+/* A picture alone is refreshed while it runs and written when it is interrupted: something to look
+ * at is better than nothing. One in a sequence is not: whoever finds the file, such as
+ * --skip-existing the next day, takes it for finished. */
+#include "render_picture.h"
+
+#include <stdio.h>
+
+#include "brightness.h"
+#include "clock.h"
+#include "setup.h"
+#include "signals.h"
+
+int picture_prepare(const picture_task *task, ppm_render **out_render)
+{
+    ppm_render_options wanted, resolved;
+    const int result = setup_render_options(task->console, task->scene, task->options,
+                                            task->picture, &wanted);
+    if (result != EXIT_DONE) return result;
+    const ppm_status usable = ppm_render_options_resolve(task->scene, &wanted, &resolved);
+    if (usable != PPM_STATUS_OK) return exit_status_of(usable, EXIT_USAGE);
+    const ppm_status status = ppm_render_create(task->scene, &wanted, out_render);
+    return exit_status_of(status, EXIT_INPUT); /* WRONG_STATE: nothing in it to render */
+}
+
+static void say_what_begins(cli_console *console, const ppm_render *render)
+{
+    const ppm_render_options *const options = ppm_render_get_options(render);
+    const uint32_t *const crop = options->crop;
+    const uint32_t width = crop[2] - crop[0], height = crop[3] - crop[1];
+    char whole[48] = "";
+    if (width < options->width || height < options->height) {
+        snprintf(whole, sizeof whole, " of %u x %u", options->width, options->height);
+    }
+    console_message(console, PPM_LOG_INFO, "rendering %u x %u%s pixels, seed %llu", width, height,
+                    whole, (unsigned long long)options->seed);
+}
+
+/* Epochs are whole passes. */
+static uint64_t pass_limit(const cli_options *cli, const ppm_render *render)
+{
+    if (cli->epochs == 0) return cli->passes;
+    const ppm_render_options *const options = ppm_render_get_options(render);
+    const uint64_t per_epoch =
+        (options->photons_per_epoch + options->photons_per_pass - 1) / options->photons_per_pass;
+    return cli->epochs * per_epoch;
+}
+
+/* After a finished pass. */
+static void show_and_refresh(const picture_task *task, ppm_render *render, cli_progress *progress,
+                             double elapsed)
+{
+    ppm_render_stats stats = {.size = sizeof stats};
+    if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return;
+    progress_show(progress, task->console, &stats, elapsed);
+    if (!task->is_whole_or_nothing) outputs_refresh(task->outputs, render, elapsed);
+}
+
+static void begin_passes(const picture_task *task, ppm_render *render, cli_progress *progress,
+                         char *label, size_t label_size)
+{
+    progress_init(progress, pass_limit(task->options, render), task->options->seconds);
+    if (task->label) {
+        snprintf(label, label_size, "%s  ", task->label);
+        progress_set_sequence(progress, label, task->pictures_after, task->seconds_per_picture);
+    }
+    if (task->is_whole_or_nothing) {
+        signals_enter_passes(render);
+    } else {
+        signals_enter_first_pass(render);
+    }
+    if (task->is_first) say_what_begins(task->console, render);
+}
+
+/* Passes until a stop, a signal or a failure. */
+static int run_passes(const picture_task *task, ppm_render *render, uint64_t *out_passes)
+{
+    char label[256];
+    cli_progress progress;
+    begin_passes(task, render, &progress, label, sizeof label);
+    const double begin = clock_seconds();
+    const bool may_be_empty = task->is_whole_or_nothing;
+    ppm_status status = PPM_STATUS_OK;
+    uint64_t passes = 0;
+    while (!((passes > 0 || may_be_empty) && signals_stop_requested())) {
+        status = ppm_render_advance(render);
+        if (status != PPM_STATUS_OK) break;
+        if (++passes == 1) signals_enter_passes(render);
+        const double elapsed = clock_seconds() - begin;
+        if (progress_is_done(&progress, passes, elapsed)) break;
+        show_and_refresh(task, render, &progress, elapsed);
+    }
+    console_clear_line(task->console);
+    *out_passes = passes;
+    return status == PPM_STATUS_CANCELLED ? EXIT_DONE : exit_status_of(status, EXIT_RESOURCES);
+}
+
+static void say_how_it_ended(const picture_task *task, const ppm_render *render,
+                             const picture_result *result)
+{
+    const unsigned long long count = result->passes;
+    const char *const plural = result->passes == 1 ? "" : "es";
+    if (result->is_stopped) {
+        console_always(task->console, "stopped by a signal after %llu pass%s%s%s%s", count, plural,
+                       task->label ? " of " : "", task->label ? task->label : "",
+                       result->is_written ? "" : "; that picture is not written");
+        return;
+    }
+    ppm_render_stats stats = {.size = sizeof stats};
+    if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return;
+    console_message(task->console, PPM_LOG_INFO, "%s%s%llu pass%s in %.1f s",
+                    task->label ? task->label : "", task->label ? ": " : "", count, plural,
+                    stats.seconds_render);
+}
+
+static int first_failure(int earlier, int later)
+{
+    return earlier != EXIT_DONE ? earlier : later;
+}
+
+/* A signal during the last pass of a picture stops nothing of it. A pass that fails does not cost
+ * the passes before it, unless the picture is to be whole. */
+int picture_render(const picture_task *task, ppm_render *render, picture_result *out_result)
+{
+    picture_result result = {0};
+    int status = run_passes(task, render, &result.passes);
+    result.is_stopped = signals_stop_requested();
+    const bool is_cut = task->is_whole_or_nothing && (result.is_stopped || status != EXIT_DONE);
+    if (result.passes > 0 && !is_cut) {
+        const int written = outputs_write(task->outputs, render);
+        result.is_written = written == EXIT_DONE;
+        status = first_failure(status, written);
+    }
+    *out_result = result;
+    if (result.passes == 0 && !result.is_stopped) return status;
+    say_how_it_ended(task, render, &result);
+    if (task->is_first && result.passes > 0) {
+        brightness_advise(task->console, render, task->options->exposure_ev);
+    }
+    return status;
+}

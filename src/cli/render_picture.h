@@ -1,0 +1,39 @@
+/* One picture: from a scene at its moment to files. */
+#ifndef PPM_CLI_RENDER_PICTURE_H
+#define PPM_CLI_RENDER_PICTURE_H
+
+#include "console.h"
+#include "options.h"
+#include "outputs.h"
+#include "pictures.h"
+#include "ppm/ppm.h"
+#include "progress.h"
+
+/* What is rendered, and how it is told. */
+typedef struct picture_task {
+    cli_console *console;
+    const cli_options *options;
+    const cli_picture *picture;
+    ppm_scene *scene;
+    cli_outputs *outputs;        /* turned to the picture */
+    bool is_whole_or_nothing;    /* files appear when all passes are done, or not at all */
+    bool is_first;               /* of those that are rendered */
+    const char *label;           /* of a picture in a sequence; NULL for one alone */
+    uint64_t pictures_after;     /* that are still to be rendered */
+    double seconds_per_picture;  /* of those before; 0: none */
+} picture_task;
+
+typedef struct picture_result {
+    uint64_t passes; /* finished */
+    bool is_stopped; /* by a signal */
+    bool is_written; /* all files are */
+} picture_result;
+
+/* Makes the session of a picture. Returns an exit status; what is wrong has been said. */
+int picture_prepare(const picture_task *task, ppm_render **out_render);
+
+/* Renders and writes. The session stays with the caller, who leaves the step of the signals before
+ * destroying it. Returns an exit status; what is wrong has been said. */
+int picture_render(const picture_task *task, ppm_render *render, picture_result *out_result);
+
+#endif

@@ -1,0 +1,182 @@
+/* INPUT is opened and imported once. For each picture only what moves is brought to its moment; the
+ * scene keeps what stands still, with its acceleration structures. A session lives for a picture. */
+#include "sequence.h"
+
+#include <string.h>
+
+#include "clock.h"
+#include "render_picture.h"
+#include "signals.h"
+
+/* How far it is. */
+typedef struct run_state {
+    size_t left;          /* pictures that are still to be rendered, by what was on disk before */
+    uint64_t rendered;    /* and written */
+    uint64_t skipped;     /* since their files were there */
+    double seconds;       /* that the rendered ones took */
+    bool is_interrupted;
+} run_state;
+
+/* Whether there may be more than one picture; one of --frame is a picture alone. */
+static bool is_sequence(const cli_sequence *s)
+{
+    return s->options->frames.is_range || s->options->all_cameras;
+}
+
+int sequence_check(const cli_sequence *s)
+{
+    const cli_picture first = pictures_at(s->pictures, 0);
+    int result = outputs_select(s->outputs, &first);
+    if (result == EXIT_DONE) result = outputs_check_names(s->outputs, s->console);
+    if (result == EXIT_DONE) result = outputs_check(s->outputs, s->context);
+    return result;
+}
+
+static bool is_there(const cli_sequence *s, const cli_picture *picture)
+{
+    if (!s->options->skips_existing) return false;
+    return outputs_select(s->outputs, picture) == EXIT_DONE && outputs_exist(s->outputs);
+}
+
+/* Counts the pictures to render; *out_first is the first of them. */
+static size_t count_left(const cli_sequence *s, cli_picture *out_first)
+{
+    const size_t count = pictures_count(s->pictures);
+    size_t left = 0;
+    *out_first = pictures_at(s->pictures, 0);
+    for (size_t i = 0; i < count; i++) {
+        const cli_picture picture = pictures_at(s->pictures, i);
+        if (is_there(s, &picture)) continue;
+        if (left++ == 0) *out_first = picture;
+    }
+    return left;
+}
+
+/* ---- one picture ----------------------------------------------------------------------------- */
+
+static int render_and_record(const cli_sequence *s, const picture_task *task, run_state *state)
+{
+    ppm_render *render = NULL;
+    picture_result done = {0};
+    int result = picture_prepare(task, &render);
+    if (result == EXIT_DONE) result = picture_render(task, render, &done);
+    if (done.is_written) {
+        const stats_source source = {.asset = s->input->asset,
+                                     .scene = s->input->scene,
+                                     .picture = task->picture,
+                                     .outputs = s->outputs,
+                                     .render = render,
+                                     .skipped = state->skipped,
+                                     .import_s = s->input->seconds};
+        const int written = stats_add(s->stats, s->console, &source);
+        if (result == EXIT_DONE) result = written;
+        state->rendered++;
+    }
+    state->is_interrupted = done.is_stopped;
+    if (task->label) {
+        signals_leave_picture();
+    } else {
+        signals_leave_render();
+    }
+    ppm_render_destroy(render);
+    return result;
+}
+
+static int render_one(const cli_sequence *s, const cli_picture *picture, run_state *state)
+{
+    char label[200];
+    const double begin = clock_seconds();
+    int result = outputs_check(s->outputs, s->context);
+    if (result == EXIT_DONE) {
+        result = input_set_moment(s->input, s->color, s->context, s->options, picture);
+    }
+    if (result != EXIT_DONE) return result;
+    if (state->left > 0) state->left--;
+    const picture_task task = {
+        .console = s->console,
+        .options = s->options,
+        .picture = picture,
+        .scene = s->input->scene,
+        .outputs = s->outputs,
+        .is_whole_or_nothing = is_sequence(s) || s->options->skips_existing,
+        .is_first = state->rendered == 0,
+        .label = is_sequence(s)
+                     ? pictures_label(s->pictures, picture, label, sizeof label)
+                     : NULL,
+        .pictures_after = state->left,
+        .seconds_per_picture =
+            state->rendered > 0 ? state->seconds / (double)state->rendered : 0.0,
+    };
+    result = render_and_record(s, &task, state);
+    state->seconds += clock_seconds() - begin;
+    return result;
+}
+
+static void say_skipped(const cli_sequence *s, const cli_picture *picture)
+{
+    char label[200];
+    pictures_label(s->pictures, picture, label, sizeof label);
+    console_message(s->console, PPM_LOG_INFO, "%s: %s is there already: skipped",
+                    is_sequence(s) ? label : s->options->input, s->outputs->paths[0]);
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+static int render_all(const cli_sequence *s, run_state *state)
+{
+    const size_t count = pictures_count(s->pictures);
+    int result = EXIT_DONE;
+    for (size_t i = 0; i < count && result == EXIT_DONE && !state->is_interrupted; i++) {
+        const cli_picture picture = pictures_at(s->pictures, i);
+        result = outputs_select(s->outputs, &picture);
+        if (result != EXIT_DONE) break;
+        if (s->options->skips_existing && outputs_exist(s->outputs)) {
+            say_skipped(s, &picture);
+            state->skipped++;
+        } else {
+            result = render_one(s, &picture, state);
+        }
+    }
+    return result;
+}
+
+/* The names of cameras are known once the file is imported. */
+static int take_cameras(const cli_sequence *s, run_state *state, cli_picture *first)
+{
+    if (!s->options->all_cameras) return EXIT_DONE;
+    int result = input_set_moment(s->input, s->color, s->context, s->options, first);
+    if (result == EXIT_DONE) result = pictures_take_cameras(s->pictures, s->input->scene);
+    if (result == EXIT_DONE) state->left = count_left(s, first);
+    return result;
+}
+
+static int say_how_it_ended(const cli_sequence *s, const run_state *state, int result)
+{
+    const unsigned long long rendered = state->rendered, skipped = state->skipped;
+    const size_t count = pictures_count(s->pictures);
+    const bool is_complete = rendered + skipped == count;
+    if (!is_sequence(s)) return result;
+    if (state->is_interrupted && !is_complete) {
+        console_always(s->console, "%llu of %zu pictures are there", rendered + skipped, count);
+        return EXIT_SIGNAL;
+    }
+    if (result == EXIT_DONE) {
+        console_message(s->console, PPM_LOG_INFO, "%llu picture%s rendered, %llu skipped",
+                        rendered, rendered == 1 ? "" : "s", skipped);
+    }
+    return result;
+}
+
+int sequence_run(const cli_sequence *s)
+{
+    run_state state = {0};
+    cli_picture first;
+    state.left = count_left(s, &first);
+    if (state.left == 0) return render_all(s, &state); /* tells what is there */
+    int result = input_open(s->input, s->console, s->context, s->options, &first);
+    if (result != EXIT_DONE) return result;
+    input_say_animations(s->input, s->console, s->options);
+    result = take_cameras(s, &state, &first);
+    if (result == EXIT_DONE) result = render_all(s, &state);
+    return say_how_it_ended(s, &state, result);
+}
