@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "gltf/gltf_asset.h"
 #include "gltf/gltf_extensions.h"
 #include "gltf/gltf_reader.h"
 
@@ -120,16 +121,18 @@ static void report(const ppmi_gltf_reader *r)
     }
 }
 
-/* ---- the import ------------------------------------------------------------------------------ */
+/* ---- the asset ------------------------------------------------------------------------------- */
 
-static ppm_status run(ppmi_gltf_reader *r)
+struct ppmi_gltf_asset {
+    ppmi_gltf_reader reader;
+};
+
+static ppm_status open_reader(ppmi_gltf_reader *r)
 {
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
-    if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
-    if (status == PPM_STATUS_OK) report(r);
     return status;
 }
 
@@ -148,18 +151,64 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->file);
 }
 
-ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *path,
-                            const ppm_import_options *options)
+ppm_status ppmi_gltf_asset_open(ppm_context *context, const char *path,
+                                const ppm_import_options *options, ppmi_gltf_asset **out_asset)
 {
-    ppmi_gltf_reader reader = {
-        .context = context, .scene = scene, .options = options, .path = path};
     if (options->light_units < PPM_LIGHT_UNITS_AUTO || options->light_units > PPM_LIGHT_UNITS_RAW ||
         options->transmission < PPM_TRANSMISSION_POLICY_AUTO ||
         options->transmission > PPM_TRANSMISSION_POLICY_THIN) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "import: light_units or transmission is none of the constants");
     }
-    const ppm_status status = run(&reader);
-    deinit(&reader);
+    ppmi_gltf_asset *asset = ppmi_alloc_zeroed(context, 1, sizeof *asset);
+    if (!asset) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
+    asset->reader.context = context;
+    asset->reader.options = options;
+    asset->reader.path = path;
+    const ppm_status status = open_reader(&asset->reader);
+    if (status != PPM_STATUS_OK) {
+        ppmi_gltf_asset_close(asset);
+        return status;
+    }
+    *out_asset = asset;
+    return PPM_STATUS_OK;
+}
+
+void ppmi_gltf_asset_close(ppmi_gltf_asset *asset)
+{
+    if (!asset) return;
+    ppm_context *context = asset->reader.context;
+    deinit(&asset->reader);
+    ppmi_free(context, asset);
+}
+
+ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
+{
+    ppmi_gltf_reader *r = &asset->reader;
+    r->scene = scene;
+    const ppm_status status = ppmi_gltf_import_nodes(r);
+    if (status == PPM_STATUS_OK) report(r);
+    return status;
+}
+
+ppm_status ppmi_gltf_asset_set_pose(ppmi_gltf_asset *asset, const ppm_pose *pose)
+{
+    (void)asset;
+    (void)pose;
+    return PPM_STATUS_OK;
+}
+
+const ppmi_gltf_reader *ppmi_gltf_asset_reader(const ppmi_gltf_asset *asset)
+{
+    return &asset->reader;
+}
+
+ppm_status ppmi_gltf_import(ppm_context *context, ppm_scene *scene, const char *path,
+                            const ppm_import_options *options)
+{
+    ppmi_gltf_asset *asset = NULL;
+    ppm_status status = ppmi_gltf_asset_open(context, path, options, &asset);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_asset_import(asset, scene);
+    ppmi_gltf_asset_close(asset);
     return status;
 }

@@ -78,18 +78,6 @@ static ppm_status check_content(ppmi_obj_reader *r)
                      "%s: it has no vertices: it is empty or not an OBJ file", r->path);
 }
 
-static ppm_status run(ppmi_obj_reader *r)
-{
-    ppm_status status = set_stem(r);
-    if (status == PPM_STATUS_OK) status = ppmi_obj_read_statements(r);
-    if (status == PPM_STATUS_OK) status = check_content(r);
-    if (status == PPM_STATUS_OK) status = ppmi_obj_read_libraries(r);
-    if (status == PPM_STATUS_OK) status = ppmi_obj_smooth_normals(r);
-    if (status == PPM_STATUS_OK) status = ppmi_obj_emit(r);
-    if (status == PPM_STATUS_OK) report(r);
-    return status;
-}
-
 static void deinit(ppmi_obj_reader *r)
 {
     ppmi_obj_array *const arrays[] = {&r->positions, &r->colors, &r->uvs,       &r->normals,
@@ -113,12 +101,56 @@ static void deinit(ppmi_obj_reader *r)
     ppmi_free(r->context, r->stem);
 }
 
+/* ---- the asset ------------------------------------------------------------------------------- */
+
+struct ppmi_obj_asset {
+    ppmi_obj_reader reader;
+};
+
+ppm_status ppmi_obj_asset_open(ppm_context *context, const char *path, ppmi_obj_asset **out_asset)
+{
+    ppmi_obj_asset *asset = ppmi_alloc_zeroed(context, 1, sizeof *asset);
+    if (!asset) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
+    ppmi_obj_reader *r = &asset->reader;
+    r->context = context;
+    r->path = path;
+    ppm_status status = set_stem(r);
+    if (status == PPM_STATUS_OK) status = ppmi_obj_read_statements(r);
+    if (status == PPM_STATUS_OK) status = check_content(r);
+    if (status != PPM_STATUS_OK) {
+        ppmi_obj_asset_close(asset);
+        return status;
+    }
+    *out_asset = asset;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_obj_asset_import(ppmi_obj_asset *asset, ppm_scene *scene)
+{
+    ppmi_obj_reader *r = &asset->reader;
+    r->scene = scene;
+    ppm_status status = ppmi_obj_read_libraries(r);
+    if (status == PPM_STATUS_OK) status = ppmi_obj_smooth_normals(r);
+    if (status == PPM_STATUS_OK) status = ppmi_obj_emit(r);
+    if (status == PPM_STATUS_OK) report(r);
+    return status;
+}
+
+void ppmi_obj_asset_close(ppmi_obj_asset *asset)
+{
+    if (!asset) return;
+    ppm_context *context = asset->reader.context;
+    deinit(&asset->reader);
+    ppmi_free(context, asset);
+}
+
 ppm_status ppmi_obj_import(ppm_context *context, ppm_scene *scene, const char *path,
                            const ppm_import_options *options)
 {
-    ppmi_obj_reader reader = {.context = context, .scene = scene, .path = path};
+    ppmi_obj_asset *asset = NULL;
     (void)options; /* lights and thin glass, neither of which an OBJ has */
-    const ppm_status status = run(&reader);
-    deinit(&reader);
+    ppm_status status = ppmi_obj_asset_open(context, path, &asset);
+    if (status == PPM_STATUS_OK) status = ppmi_obj_asset_import(asset, scene);
+    ppmi_obj_asset_close(asset);
     return status;
 }

@@ -1,0 +1,21 @@
+/* An opened file: one of the importers' assets, and what was asked for. */
+#ifndef PPMI_API_ASSET_H
+#define PPMI_API_ASSET_H
+
+#include <stdbool.h>
+
+#include "gltf/gltf_asset.h"
+#include "obj/obj_import.h"
+#include "ppm/asset.h"
+
+struct ppm_asset {
+    ppm_context *context;
+    char *path, *scene_name, *variant, *animation; /* copies, which options points to */
+    ppm_import_options options;
+    ppmi_gltf_asset *gltf; /* one of the two is set */
+    ppmi_obj_asset *obj;
+    ppm_scene *scene; /* that it has been imported into; NULL before */
+    bool is_imported; /* without a failure on the way */
+};
+
+#endif
