@@ -106,13 +106,8 @@ static void report(const ppmi_gltf_reader *r)
     const ppmi_gltf_tally *tally = &r->tally;
     report_light_units(r);
     report_glass(r);
-    report_count(r, tally->points_or_lines, "primitives of points or lines left out");
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
-    report_count(r, tally->skins, "skinned nodes: skins are not applied");
-    report_count(r, tally->morph_targets, "primitives with morph targets: not applied");
-    report_count(r, r->outline.lists[PPMI_GLTF_ANIMATIONS].count,
-                 "animations: the file's static pose is shown");
     if (tally->instances == 0) {
         ppmi_log(r->context, PPM_LOG_WARNING, "%s: nothing to render: %s", r->path,
                  r->outline.lists[PPMI_GLTF_MESHES].count == 0
@@ -132,6 +127,7 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
+    if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
     return status;
 }
@@ -146,6 +142,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->materials);
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
+    ppmi_gltf_report_deinit(r->context, &r->report);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);
@@ -186,8 +183,9 @@ ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
 {
     ppmi_gltf_reader *r = &asset->reader;
     r->scene = scene;
-    const ppm_status status = ppmi_gltf_import_nodes(r);
+    ppm_status status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) report(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
     return status;
 }
 

@@ -130,10 +130,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 {
     char inner[PPMI_GLTF_PLACE];
     const int32_t position = find_attribute(primitive, "POSITION");
-    if (primitive->mode < PPMI_GLTF_TRIANGLES) {
-        reader->tally.points_or_lines++;
-        return PPM_STATUS_OK;
-    }
+    if (primitive->mode < PPMI_GLTF_TRIANGLES) return PPM_STATUS_OK;
     if (position < 0) {
         reader->tally.no_positions++;
         return PPM_STATUS_OK;
@@ -144,7 +141,6 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
                          "compressed; write the file without mesh compression",
                          reader->path, place);
     }
-    if (primitive->has_targets) reader->tally.morph_targets++;
     ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
     ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
                                               &g->vertex_count);

@@ -179,7 +179,6 @@ static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index, const doubl
     ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
     const ppm_status status = ppmi_gltf_use_mesh(reader, node->mesh, place, &mesh);
     if (status != PPM_STATUS_OK || mesh == 0) return status;
-    if (node->skin >= 0) reader->tally.skins++;
     if (node->is_instanced) return add_gpu_instances(reader, index, mesh, world);
     return add_instance(reader, index, mesh, world);
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "gltf/gltf_check.h"
+#include "gltf/gltf_report.h"
 #include "gltf/gltf_shim.h"
 #include "ppm/import.h"
 
@@ -28,11 +29,11 @@ typedef struct ppmi_gltf_image_use {
 typedef struct ppmi_gltf_tally {
     size_t instances;
     size_t punctual_lights;
-    size_t points_or_lines, skins, morph_targets, broken_counts, no_positions;
+    size_t broken_counts, no_positions;
     size_t solid_glass, thin_glass;
 } ppmi_gltf_tally;
 
-typedef struct ppmi_gltf_reader {
+struct ppmi_gltf_reader {
     ppm_context *context;
     ppm_scene *scene;
     const ppm_import_options *options;
@@ -57,7 +58,8 @@ typedef struct ppmi_gltf_reader {
     size_t zero_elements;             /* of accessors that have no bytes in the file */
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
-} ppmi_gltf_reader;
+    ppmi_gltf_report report;
+};
 
 /* ---- gltf_file.c: files, GLB, buffers -------------------------------------------------------- */
 

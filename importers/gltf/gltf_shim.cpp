@@ -156,6 +156,7 @@ ppmi_gltf_material copy_material(const tinygltf::Material &from)
     out.alpha_mode = from.alphaMode.c_str();
     out.alpha_cutoff = from.alphaCutoff;
     out.double_sided = from.doubleSided;
+    out.has_occlusion = from.occlusionTexture.index >= 0;
     copy_material_extensions(from, &out);
     out.priority = number_or(from.extras, "ppm_priority", 0.0);
     return out;
@@ -302,6 +303,7 @@ ppmi_gltf_light copy_light(const tinygltf::Light &from)
     out.intensity = from.intensity;
     out.inner_cone_rad = from.spot.innerConeAngle;
     out.outer_cone_rad = from.spot.outerConeAngle;
+    out.has_range = from.range > 0.0;
     return out;
 }
 

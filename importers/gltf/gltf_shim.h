@@ -99,6 +99,7 @@ typedef struct ppmi_gltf_light {
     double color[3];
     double intensity;
     double inner_cone_rad, outer_cone_rad;
+    bool has_range; /* a distance where it ends is given */
 } ppmi_gltf_light;
 
 typedef struct ppmi_gltf_texture_info {
@@ -125,7 +126,8 @@ typedef struct ppmi_gltf_material {
     ppmi_gltf_texture_info transmission_texture;
     double thickness, attenuation_color[3], attenuation_distance; /* distance 0: infinite */
     double dispersion;                                            /* 20 / Abbe number; 0: none */
-    double priority; /* extras.ppm_priority; 0 where it is not given */
+    bool has_occlusion; /* occlusionTexture is given */
+    double priority;    /* extras.ppm_priority; 0 where it is not given */
 } ppmi_gltf_material;
 
 typedef struct ppmi_gltf_texture {
