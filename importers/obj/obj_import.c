@@ -144,6 +144,11 @@ void ppmi_obj_asset_close(ppmi_obj_asset *asset)
     ppmi_free(context, asset);
 }
 
+const ppmi_obj_reader *ppmi_obj_asset_reader(const ppmi_obj_asset *asset)
+{
+    return &asset->reader;
+}
+
 ppm_status ppmi_obj_import(ppm_context *context, ppm_scene *scene, const char *path,
                            const ppm_import_options *options)
 {

@@ -24,6 +24,11 @@ ppm_status ppmi_obj_asset_import(ppmi_obj_asset *asset, ppm_scene *scene);
 /* NULL is fine. */
 void ppmi_obj_asset_close(ppmi_obj_asset *asset);
 
+typedef struct ppmi_obj_reader ppmi_obj_reader;
+
+/* What has been read, for the lists of what is in it. */
+const ppmi_obj_reader *ppmi_obj_asset_reader(const ppmi_obj_asset *asset);
+
 #ifdef __cplusplus
 }
 #endif

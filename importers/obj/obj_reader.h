@@ -3,6 +3,7 @@
 #ifndef PPMI_OBJ_READER_H
 #define PPMI_OBJ_READER_H
 
+#include "obj/obj_import.h"
 #include "obj/obj_lines.h"
 #include "obj/obj_polygon.h"
 #include "obj/obj_shim.h"
@@ -54,7 +55,7 @@ typedef struct ppmi_obj_tally {
     char unknown_word[32]; /* the first one */
 } ppmi_obj_tally;
 
-typedef struct ppmi_obj_reader {
+struct ppmi_obj_reader {
     ppm_context *context;
     ppm_scene *scene;
     const char *path;  /* of the file; also its name in messages */
@@ -92,7 +93,7 @@ typedef struct ppmi_obj_reader {
 
     ppmi_obj_polygon_workspace polygons;
     ppmi_obj_tally tally;
-} ppmi_obj_reader;
+};
 
 /* ---- obj_import.c ---------------------------------------------------------------------------- */
 

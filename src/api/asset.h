@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "base/catalog.h"
 #include "gltf/gltf_asset.h"
 #include "obj/obj_import.h"
 #include "ppm/asset.h"
@@ -16,6 +17,10 @@ struct ppm_asset {
     ppmi_obj_asset *obj;
     ppm_scene *scene; /* that it has been imported into; NULL before */
     bool is_imported; /* without a failure on the way */
+    ppmi_catalog catalog;
 };
+
+/* asset_list.c: what is in the file, once it is open. */
+ppm_status ppmi_asset_fill_catalog(ppm_asset *asset);
 
 #endif

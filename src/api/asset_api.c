@@ -73,6 +73,7 @@ ppm_status ppm_asset_open(ppm_context *context, const char *path, const ppm_impo
     asset->context = context;
     ppm_status status = keep_request(asset, path, options ? options : &defaults);
     if (status == PPM_STATUS_OK) status = open_file(asset);
+    if (status == PPM_STATUS_OK) status = ppmi_asset_fill_catalog(asset);
     if (status != PPM_STATUS_OK) {
         ppm_asset_close(asset);
         return status;
@@ -84,6 +85,7 @@ ppm_status ppm_asset_open(ppm_context *context, const char *path, const ppm_impo
 void ppm_asset_close(ppm_asset *asset)
 {
     if (!asset) return;
+    ppmi_catalog_deinit(&asset->catalog);
     ppmi_gltf_asset_close(asset->gltf);
     ppmi_obj_asset_close(asset->obj);
     ppmi_free(asset->context, asset->path);

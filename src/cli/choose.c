@@ -27,8 +27,8 @@ static void write_names(const char *const *names, uint32_t count, char *buffer, 
             snprintf(buffer + length, size - length, "%s...", i ? ", " : "");
             return;
         }
-        length += (size_t)snprintf(buffer + length, size - length, "%s'%s'", i ? ", " : "",
-                                   names[i]);
+        length +=
+            (size_t)snprintf(buffer + length, size - length, "%s'%s'", i ? ", " : "", names[i]);
     }
 }
 

@@ -8,7 +8,13 @@
 
 enum { FRAME_DIGITS = 4, WIDTH_MOST = 20, NAME_BYTES_MOST = 80 };
 
-typedef enum piece_kind { PIECE_END, PIECE_LETTER, PIECE_FRAME, PIECE_CAMERA, PIECE_BAD } piece_kind;
+typedef enum piece_kind {
+    PIECE_END,
+    PIECE_LETTER,
+    PIECE_FRAME,
+    PIECE_CAMERA,
+    PIECE_BAD
+} piece_kind;
 
 typedef struct piece {
     piece_kind kind;
@@ -209,9 +215,8 @@ char *pattern_escape(const char *path, const pattern_use *use)
 
 static bool is_safe(unsigned char letter)
 {
-    return letter >= 0x80 || (letter >= '0' && letter <= '9') ||
-           (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || letter == '-' ||
-           letter == '_' || letter == '.';
+    return letter >= 0x80 || (letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z') ||
+           (letter >= 'a' && letter <= 'z') || letter == '-' || letter == '_' || letter == '.';
 }
 
 char *pattern_safe_name(const char *name)

@@ -10,9 +10,9 @@
 
 /* What a name is used for. */
 typedef struct pattern_use {
-    bool has_frame;     /* there is a frame's number to fill in */
-    bool needs_frame;   /* one is put before the ending where the name has no place for it */
-    bool has_camera;    /* there is a camera's name to fill in; it is put in where none is */
+    bool has_frame;   /* there is a frame's number to fill in */
+    bool needs_frame; /* one is put before the ending where the name has no place for it */
+    bool has_camera;  /* there is a camera's name to fill in; it is put in where none is */
 } pattern_use;
 
 /* Whether a name can be filled in; NULL when it can, otherwise what is wrong with it. */

@@ -105,6 +105,25 @@ static ppm_import_options plain_options(const cli_options *options)
                                 .strict = options->is_strict != 0};
 }
 
+/* Opens the file for its names alone, and puts them into wanted. Warnings are for the opening that
+ * counts. */
+static int look_up_first(cli_console *console, ppm_context *context, const cli_options *options,
+                         ppm_import_options *wanted, char *scene, size_t scene_size)
+{
+    ppm_asset *asset = NULL;
+    const int32_t verbosity = console->verbosity;
+    console->verbosity = VERBOSITY_QUIET;
+    const ppm_status status = ppm_asset_open(context, options->input, wanted, &asset);
+    console->verbosity = verbosity;
+    if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_INPUT);
+    const int result = look_up(console, asset, options, scene, scene_size);
+    ppm_asset_close(asset);
+    wanted->scene = options->scene ? scene : NULL;
+    wanted->variant = options->variant;
+    wanted->animation = options->animation;
+    return result;
+}
+
 int input_open(cli_input *input, cli_console *console, ppm_context *context,
                const cli_options *options, const cli_picture *picture)
 {
@@ -112,17 +131,11 @@ int input_open(cli_input *input, cli_console *console, ppm_context *context,
     const double begin = clock_seconds();
     ppm_import_options wanted = plain_options(options);
     wanted.pose = input->pose = pose_of(options, picture);
-    ppm_status status = ppm_asset_open(context, options->input, &wanted, &input->asset);
-    if (status == PPM_STATUS_OK && (options->scene || options->variant || options->animation)) {
-        const int result = look_up(console, input->asset, options, scene, sizeof scene);
+    if (options->scene || options->variant || options->animation) {
+        const int result = look_up_first(console, context, options, &wanted, scene, sizeof scene);
         if (result != EXIT_DONE) return result;
-        wanted.scene = options->scene ? scene : NULL;
-        wanted.variant = options->variant;
-        wanted.animation = options->animation;
-        ppm_asset_close(input->asset);
-        input->asset = NULL;
-        status = ppm_asset_open(context, options->input, &wanted, &input->asset);
     }
+    const ppm_status status = ppm_asset_open(context, options->input, &wanted, &input->asset);
     input->seconds = clock_seconds() - begin;
     return exit_status_of(status, EXIT_INPUT);
 }

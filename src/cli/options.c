@@ -267,7 +267,8 @@ void cli_options_print_help(FILE *stream)
     fputs("\nExample: ten minutes for a picture of 1920x1080 pixels, two stops brighter\n"
           "  ppm-render -s 1920x1080 -t 600 --exposure 2 -o hall.exr -o hall.png hall.glb\n"
           "Example: a second of an animation with motion blur; again, it goes on where it ended\n"
-          "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing -o walk.%04d.exr walk.glb\n"
+          "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing -o walk.%04d.exr "
+          "walk.glb\n"
           "\nExit status: 0 done (also when stopped by SIGINT or SIGTERM), 1 wrong usage,\n"
           "2 input not usable, 3 output not writable, 4 out of resources.\n",
           stream);
@@ -691,8 +692,7 @@ static int check_together(const cli_options *options)
          "--animation is played by --frame and --frames, neither of which is given"},
         {options->motion_steps > 0 && !has_blur,
          "--motion-steps is about --shutter with --frame or --frames, which are not all given"},
-        {options->epochs > 0 && options->passes > 0,
-         "--epochs and --passes both say when to stop"},
+        {options->epochs > 0 && options->passes > 0, "--epochs and --passes both say when to stop"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
         if (!rules[i].is_idle) continue;

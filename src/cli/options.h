@@ -66,14 +66,14 @@ typedef struct cli_options {
     const char *stats;
     int32_t skips_existing;
 
-    int32_t list; /* LIST_ */
+    int32_t list;        /* LIST_ */
     const char *scene;   /* a name, or a number from 1 */
     const char *variant; /* a name */
     int32_t is_strict;
     int32_t allows_outside;
 
-    frame_choice frames; /* by --frame or --frames */
-    double fps;          /* a default has been filled in */
+    frame_choice frames;   /* by --frame or --frames */
+    double fps;            /* a default has been filled in */
     const char *animation; /* a name; NULL: all */
     uint64_t motion_steps;
 

@@ -13,9 +13,10 @@ typedef struct cli_picture {
     size_t index; /* from 0 */
     bool has_frame;
     int32_t frame;
-    double time_s;           /* frame / fps */
-    ppm_camera_id camera;    /* 0: the one of the options */
-    const char *camera_name; /* as it stands in files' names; NULL unless all cameras are asked for */
+    double time_s;        /* frame / fps */
+    ppm_camera_id camera; /* 0: the one of the options */
+    const char
+        *camera_name; /* as it stands in files' names; NULL unless all cameras are asked for */
 } cli_picture;
 
 typedef struct cli_pictures {

@@ -54,8 +54,8 @@ static double seconds_left(const cli_progress *progress, uint64_t passes, double
 static double seconds_left_of_all(const cli_progress *progress, uint64_t passes, double elapsed)
 {
     const double left = seconds_left(progress, passes, elapsed);
-    const double each = progress->seconds_per_picture > 0.0 ? progress->seconds_per_picture
-                                                            : elapsed + left;
+    const double each =
+        progress->seconds_per_picture > 0.0 ? progress->seconds_per_picture : elapsed + left;
     return left + (double)progress->pictures_after * each;
 }
 

@@ -13,8 +13,8 @@
 int picture_prepare(const picture_task *task, ppm_render **out_render)
 {
     ppm_render_options wanted, resolved;
-    const int result = setup_render_options(task->console, task->scene, task->options,
-                                            task->picture, &wanted);
+    const int result =
+        setup_render_options(task->console, task->scene, task->options, task->picture, &wanted);
     if (result != EXIT_DONE) return result;
     const ppm_status usable = ppm_render_options_resolve(task->scene, &wanted, &resolved);
     if (usable != PPM_STATUS_OK) return exit_status_of(usable, EXIT_USAGE);

@@ -15,12 +15,12 @@ typedef struct picture_task {
     const cli_options *options;
     const cli_picture *picture;
     ppm_scene *scene;
-    cli_outputs *outputs;        /* turned to the picture */
-    bool is_whole_or_nothing;    /* files appear when all passes are done, or not at all */
-    bool is_first;               /* of those that are rendered */
-    const char *label;           /* of a picture in a sequence; NULL for one alone */
-    uint64_t pictures_after;     /* that are still to be rendered */
-    double seconds_per_picture;  /* of those before; 0: none */
+    cli_outputs *outputs;       /* turned to the picture */
+    bool is_whole_or_nothing;   /* files appear when all passes are done, or not at all */
+    bool is_first;              /* of those that are rendered */
+    const char *label;          /* of a picture in a sequence; NULL for one alone */
+    uint64_t pictures_after;    /* that are still to be rendered */
+    double seconds_per_picture; /* of those before; 0: none */
 } picture_task;
 
 typedef struct picture_result {

@@ -1,5 +1,6 @@
 /* INPUT is opened and imported once. For each picture only what moves is brought to its moment; the
- * scene keeps what stands still, with its acceleration structures. A session lives for a picture. */
+ * scene keeps what stands still, with its acceleration structures. A session lives for a picture.
+ */
 #include "sequence.h"
 
 #include <string.h>
@@ -10,10 +11,10 @@
 
 /* How far it is. */
 typedef struct run_state {
-    size_t left;          /* pictures that are still to be rendered, by what was on disk before */
-    uint64_t rendered;    /* and written */
-    uint64_t skipped;     /* since their files were there */
-    double seconds;       /* that the rendered ones took */
+    size_t left;       /* pictures that are still to be rendered, by what was on disk before */
+    uint64_t rendered; /* and written */
+    uint64_t skipped;  /* since their files were there */
+    double seconds;    /* that the rendered ones took */
     bool is_interrupted;
 } run_state;
 
@@ -100,12 +101,9 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
         .outputs = s->outputs,
         .is_whole_or_nothing = is_sequence(s) || s->options->skips_existing,
         .is_first = state->rendered == 0,
-        .label = is_sequence(s)
-                     ? pictures_label(s->pictures, picture, label, sizeof label)
-                     : NULL,
+        .label = is_sequence(s) ? pictures_label(s->pictures, picture, label, sizeof label) : NULL,
         .pictures_after = state->left,
-        .seconds_per_picture =
-            state->rendered > 0 ? state->seconds / (double)state->rendered : 0.0,
+        .seconds_per_picture = state->rendered > 0 ? state->seconds / (double)state->rendered : 0.0,
     };
     result = render_and_record(s, &task, state);
     state->seconds += clock_seconds() - begin;
@@ -161,8 +159,8 @@ static int say_how_it_ended(const cli_sequence *s, const run_state *state, int r
         return EXIT_SIGNAL;
     }
     if (result == EXIT_DONE) {
-        console_message(s->console, PPM_LOG_INFO, "%llu picture%s rendered, %llu skipped",
-                        rendered, rendered == 1 ? "" : "s", skipped);
+        console_message(s->console, PPM_LOG_INFO, "%llu picture%s rendered, %llu skipped", rendered,
+                        rendered == 1 ? "" : "s", skipped);
     }
     return result;
 }

@@ -180,8 +180,8 @@ static json_t *counts_json(const ppm_render_stats *stats)
 static json_t *times_json(const ppm_render_stats *stats, double total_s, double import_s)
 {
     return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o}", //
-                     "seconds_total", total_s,                      //
-                     "seconds_import", import_s,                    //
+                     "seconds_total", total_s,                             //
+                     "seconds_import", import_s,                           //
                      "seconds_build", stats->seconds_build,                //
                      "seconds_render", stats->seconds_render,              //
                      "seconds_eye", stats->seconds_eye,                    //

@@ -1,0 +1,162 @@
+/* One table says what the kinds are called, for people and for programs. The keys of the JSON are
+ * part of the program's contract (docs/command-line.md). */
+#include "list.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "features_json.h"
+#include "options.h"
+
+/* In the order in which they are shown. */
+static const struct {
+    int32_t kind;
+    const char *key;     /* of the JSON */
+    const char *heading; /* with the option that chooses one */
+} kinds[] = {
+    {PPM_ASSET_SCENES, "scenes", "Scenes (--scene)"},
+    {PPM_ASSET_CAMERAS, "cameras", "Cameras (--camera)"},
+    {PPM_ASSET_LIGHTS, "lights", "Lights"},
+    {PPM_ASSET_VARIANTS, "variants", "Variants (--variant)"},
+    {PPM_ASSET_ANIMATIONS, "animations", "Animations (--animation)"},
+    {PPM_ASSET_NODES, "nodes", "Nodes (--focus)"},
+    {PPM_ASSET_MESHES, "meshes", "Meshes"},
+    {PPM_ASSET_MATERIALS, "materials", "Materials"},
+    {PPM_ASSET_IMAGES, "images", "Images"},
+};
+enum { KIND_COUNT = sizeof kinds / sizeof kinds[0], NAME_COLUMN_MOST = 32 };
+
+static int finish(void)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout)) return EXIT_DONE;
+    perror("ppm-render: error: standard output");
+    return EXIT_OUTPUT;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* Letters of UTF-8, each taken as one column wide. */
+static int columns(const char *text)
+{
+    int count = 0;
+    for (; *text; text++)
+        count += ((unsigned char)*text & 0xc0) != 0x80;
+    return count;
+}
+
+static int name_column(const ppm_asset *asset, int32_t kind)
+{
+    int widest = 0;
+    const uint32_t count = ppm_asset_count(asset, kind);
+    for (uint32_t i = 0; i < count; i++) {
+        ppm_asset_item item = {.size = sizeof item};
+        if (ppm_asset_get_item(asset, kind, i, &item) != PPM_STATUS_OK) continue;
+        const int width = columns(item.name);
+        if (width > widest && width <= NAME_COLUMN_MOST) widest = width;
+    }
+    return widest;
+}
+
+static void print_padded(const char *text, int width)
+{
+    const int missing = width - columns(text);
+    printf("%s%*s", text, missing > 0 ? missing : 0, "");
+}
+
+static void print_kind(const ppm_asset *asset, int32_t kind, const char *heading)
+{
+    const uint32_t count = ppm_asset_count(asset, kind);
+    const int width = name_column(asset, kind);
+    if (count == 0) return;
+    printf("\n%s: %u\n", heading, count);
+    for (uint32_t i = 0; i < count; i++) {
+        ppm_asset_item item = {.size = sizeof item};
+        if (ppm_asset_get_item(asset, kind, i, &item) != PPM_STATUS_OK) continue;
+        printf("%5u  ", i + 1);
+        if (*item.detail) {
+            print_padded(item.name, width);
+            printf("  %s\n", item.detail);
+        } else {
+            printf("%s\n", item.name);
+        }
+    }
+}
+
+static void print_features(const ppm_asset *asset, int32_t verdict, bool *has_heading)
+{
+    const uint32_t count = ppm_asset_feature_count(asset);
+    for (uint32_t i = 0; i < count; i++) {
+        ppm_asset_feature feature = {.size = sizeof feature};
+        if (ppm_asset_get_feature(asset, i, &feature) != PPM_STATUS_OK) continue;
+        if (feature.verdict != verdict) continue;
+        if (!*has_heading) printf("\nWhat of it is understood:\n");
+        *has_heading = true;
+        printf("  %-13s %s%s%s\n", feature_verdict(verdict), feature.name,
+               *feature.note ? ": " : "", feature.note);
+    }
+}
+
+static void print_table(const ppm_asset *asset, const char *path)
+{
+    const char *const generator = ppm_asset_generator(asset);
+    const char *const units = ppm_asset_light_units(asset);
+    bool has_heading = false;
+    printf("%s%s%s\n", path, *generator ? ", written by " : "", generator);
+    printf("Units: metres, radians, seconds%s%s\n", *units ? "; lights: " : "", units);
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        print_kind(asset, kinds[i].kind, kinds[i].heading);
+    print_features(asset, PPM_FEATURE_IGNORED, &has_heading);
+    print_features(asset, PPM_FEATURE_APPROXIMATED, &has_heading);
+    print_features(asset, PPM_FEATURE_HONOURED, &has_heading);
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------ */
+
+static json_t *kind_json(const ppm_asset *asset, int32_t kind)
+{
+    const uint32_t count = ppm_asset_count(asset, kind);
+    json_t *const list = json_array();
+    for (uint32_t i = 0; list && i < count; i++) {
+        ppm_asset_item item = {.size = sizeof item};
+        if (ppm_asset_get_item(asset, kind, i, &item) != PPM_STATUS_OK) continue;
+        json_t *const object = json_object();
+        json_object_set_new(object, "number", json_integer(i + 1));
+        json_object_set_new(object, "name", text_json(item.name));
+        json_object_set_new(object, "detail", text_json(item.detail));
+        if (kind == PPM_ASSET_ANIMATIONS) {
+            json_object_set_new(object, "begin_s", json_real(item.begin_s));
+            json_object_set_new(object, "end_s", json_real(item.end_s));
+        }
+        json_array_append_new(list, object);
+    }
+    return list;
+}
+
+static int print_json(const ppm_asset *asset, const char *path)
+{
+    json_t *const root = json_object();
+    json_object_set_new(root, "version", json_string(ppm_version()));
+    json_object_set_new(root, "file", text_json(path));
+    json_object_set_new(root, "generator", text_json(ppm_asset_generator(asset)));
+    json_object_set_new(root, "light_units", text_json(ppm_asset_light_units(asset)));
+    for (size_t i = 0; i < KIND_COUNT; i++)
+        json_object_set_new(root, kinds[i].key, kind_json(asset, kinds[i].kind));
+    json_object_set_new(root, "features", features_json(asset));
+    if (!root) return EXIT_RESOURCES;
+    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    fputc('\n', stdout);
+    json_decref(root);
+    return EXIT_DONE;
+}
+
+int list_print(const ppm_asset *asset, const char *path, int32_t format)
+{
+    int result = EXIT_DONE;
+    if (format == LIST_JSON) {
+        result = print_json(asset, path);
+    } else {
+        print_table(asset, path);
+    }
+    return result == EXIT_DONE ? finish() : result;
+}
