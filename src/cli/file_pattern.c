@@ -221,7 +221,6 @@ static bool is_safe(unsigned char letter)
 
 char *pattern_safe_name(const char *name)
 {
-    if (*name == '\0') return strdup("camera");
     size_t length = strlen(name);
     if (length > NAME_BYTES_MOST) {
         length = NAME_BYTES_MOST; /* not within a letter of UTF-8 */

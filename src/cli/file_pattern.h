@@ -31,9 +31,9 @@ char *pattern_fill(const char *path, const pattern_use *use, int32_t frame, cons
 /* The pattern whose name is path as it stands. The caller frees it; NULL when memory is out. */
 char *pattern_escape(const char *path, const pattern_use *use);
 
-/* Turns a name into one that is safe in a file's name: letters, digits, '-', '_', '.' not at the
- * beginning, and what is not ASCII stay; all else becomes '_'. At most 80 bytes; "camera" for an
- * empty one. The caller frees it; NULL when memory is out. */
+/* A name made safe for a file's: letters, digits, '-', '_', a '.' that is not at the beginning, and
+ * what is not ASCII stay; all else becomes '_'. At most 80 bytes. The caller frees it; NULL when
+ * memory is out. */
 char *pattern_safe_name(const char *name);
 
 #endif

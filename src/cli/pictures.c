@@ -28,18 +28,26 @@ static bool is_among(char *const *names, uint32_t count, const char *name)
     return false;
 }
 
-/* name, or name-2, name-3, ..., whichever is new. NULL when memory is out. */
-static char *new_name(char *const *names, uint32_t count, const char *name)
+/* Safe in a file's name; the number of a camera without a name. NULL when memory is out. */
+static char *name_of(const ppm_scene *scene, ppm_camera_id id)
 {
-    char *const safe = pattern_safe_name(name);
-    if (!safe || !is_among(names, count, safe)) return safe;
+    char number[16];
+    const char *const name = ppm_scene_camera_name(scene, id);
+    snprintf(number, sizeof number, "%u", (unsigned)id);
+    return pattern_safe_name(*name ? name : number);
+}
+
+/* name, or name-2, name-3, ..., whichever is new. NULL when memory is out. */
+static char *new_name(char *const *names, uint32_t count, char *name)
+{
+    if (!name || !is_among(names, count, name)) return name;
     char *numbered = NULL;
     for (unsigned number = 2; number <= count + 1; number++) {
         free(numbered);
-        if (asprintf(&numbered, "%s-%u", safe, number) < 0) numbered = NULL;
+        if (asprintf(&numbered, "%s-%u", name, number) < 0) numbered = NULL;
         if (!numbered || !is_among(names, count, numbered)) break;
     }
-    free(safe);
+    free(name);
     return numbered;
 }
 
@@ -51,8 +59,7 @@ int pictures_take_cameras(cli_pictures *pictures, const ppm_scene *scene)
     if (!pictures->camera_names) return EXIT_RESOURCES;
     pictures->camera_count = count;
     for (uint32_t i = 0; i < count; i++) {
-        pictures->camera_names[i] =
-            new_name(pictures->camera_names, i, ppm_scene_camera_name(scene, i + 1));
+        pictures->camera_names[i] = new_name(pictures->camera_names, i, name_of(scene, i + 1));
         if (!pictures->camera_names[i]) return EXIT_RESOURCES;
     }
     return EXIT_DONE;

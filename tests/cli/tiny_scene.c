@@ -1,4 +1,5 @@
-/* A square of 2 m, once as a floor and once, smaller and upside down, as a lamp. */
+/* A square of 2 m, once as a floor and once, smaller and upside down, as a lamp. In the moving
+ * scene the lamp goes sideways, once along x and once along z. */
 #include "cli/tiny_scene.h"
 
 #include <stddef.h>
@@ -54,20 +55,59 @@ static const char head[] =
     " \"accessors\": [\n"
     "  {\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\",\n"
     "   \"min\": [-1, 0, -1], \"max\": [1, 0, 1]},\n"
-    "  {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}],\n"
-    " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48},\n"
-    "  {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 12}],\n"
-    " \"buffers\": [{\"byteLength\": 60, \"uri\": \"data:application/octet-stream;base64,";
+    "  {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}";
+
+/* What the moving scene has besides: names that a table, a terminal or a file's name would suffer
+ * from are part of it. */
+static const char moving_accessors[] =
+    ",\n  {\"bufferView\": 2, \"componentType\": 5126, \"count\": 2, \"type\": \"SCALAR\",\n"
+    "   \"min\": [0], \"max\": [1]},\n"
+    "  {\"bufferView\": 3, \"componentType\": 5126, \"count\": 2, \"type\": \"VEC3\"},\n"
+    "  {\"bufferView\": 4, \"componentType\": 5126, \"count\": 2, \"type\": \"VEC3\"}";
+static const char moving_views[] = ",\n  {\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": 8},\n"
+                                   "  {\"buffer\": 0, \"byteOffset\": 68, \"byteLength\": 24},\n"
+                                   "  {\"buffer\": 0, \"byteOffset\": 92, \"byteLength\": 24}";
+static const char moving_lists[] =
+    " \"animations\": [\n"
+    "  {\"name\": \"Slide\", \"samplers\": [{\"input\": 2, \"output\": 3}],\n"
+    "   \"channels\": [{\"sampler\": 0, \"target\": {\"node\": 1, \"path\": \"translation\"}}]},\n"
+    "  {\"name\": \"Bell\\u0007\\u001b[2J\", \"samplers\": [{\"input\": 2, \"output\": 4}],\n"
+    "   \"channels\": [{\"sampler\": 0, \"target\": {\"node\": 1, \"path\": \"translation\"}}]}],\n"
+    " \"images\": [{\"name\": \"Wood\", \"uri\": \"wood%20floor.png\"}],\n";
+
+static const float moving_keys[] = {0.0f,  1.0f,                           /* seconds */
+                                    -0.5f, 1.5f, 0.0f,  0.5f, 1.5f, 0.0f,  /* along x */
+                                    0.0f,  1.5f, -0.5f, 0.0f, 1.5f, 0.5f}; /* along z */
+
+static bool write_scene(const char *path, bool is_moving)
+{
+    unsigned char bytes[sizeof unit_square + sizeof moving_keys + 1] = {0};
+    const size_t count = is_moving ? sizeof unit_square + sizeof moving_keys : sizeof unit_square;
+    _Static_assert(sizeof unit_square == 60, "the buffer views say so");
+    _Static_assert((sizeof unit_square + sizeof moving_keys) % 3 == 2, "one byte is missing");
+    memcpy(bytes, &unit_square, sizeof unit_square);
+    memcpy(bytes + sizeof unit_square, moving_keys, sizeof moving_keys);
+    FILE *const file = fopen(path, "w");
+    if (!file) return false;
+    fprintf(file, "%s%s],\n", head, is_moving ? moving_accessors : "");
+    fprintf(file, "%s%s", is_moving ? moving_lists : "",
+            " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48},\n"
+            "  {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 12}");
+    fprintf(file,
+            "%s],\n \"buffers\": [{\"byteLength\": %zu, \"uri\": "
+            "\"data:application/octet-stream;base64,",
+            is_moving ? moving_views : "", count);
+    put_base64(file, bytes, is_moving ? count + 1 : count);
+    fputs("\"}]}\n", file);
+    return fclose(file) == 0;
+}
 
 bool tiny_scene_write(const char *path)
 {
-    unsigned char bytes[sizeof unit_square];
-    _Static_assert(sizeof unit_square == 60, "the buffer views say so");
-    memcpy(bytes, &unit_square, sizeof bytes);
-    FILE *const file = fopen(path, "w");
-    if (!file) return false;
-    fputs(head, file);
-    put_base64(file, bytes, sizeof bytes);
-    fputs("\"}]}\n", file);
-    return fclose(file) == 0;
+    return write_scene(path, false);
+}
+
+bool tiny_scene_write_moving(const char *path)
+{
+    return write_scene(path, true);
 }

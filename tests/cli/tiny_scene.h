@@ -9,4 +9,8 @@ enum { TINY_SCENE_TRIANGLES = 4, TINY_SCENE_INSTANCES = 2, TINY_SCENE_MATERIALS 
 /* Writes a glTF file, its buffer embedded. Its cameras are "Front" and "Side". */
 bool tiny_scene_write(const char *path);
 
+/* The same with an image that is not there, which nothing uses, and two animations of the lamp,
+ * from 0 to 1 s: "Slide", and one whose name holds a bell and an escape sequence. */
+bool tiny_scene_write_moving(const char *path);
+
 #endif
