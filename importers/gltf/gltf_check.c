@@ -318,13 +318,17 @@ static bool check_objects(checker *c, const gltf_field *field)
 {
     const gltf_field item = {.key = field->key, .flags = GLTF_VITAL, .fields = field->fields};
     bool is_open;
+    ppmi_gltf_json_peek(&c->json);
+    const size_t begin = c->json.at;
     if (!open_array(c, field, &is_open) || !is_open) return !c->json.error;
-    for (size_t i = 0; next_item(c, i); ++i) {
-        const size_t before = push_index(c, i);
+    size_t count = 0;
+    for (; next_item(c, count); ++count) {
+        const size_t before = push_index(c, count);
         if (!check_object(c, &item)) return false;
         pop(c, before);
     }
-    return !c->json.error;
+    if (c->json.error) return false;
+    return count >= field->min_items || complain(c, field, begin, "expected at least one item");
 }
 
 /* Makes the buffer or image of a new element the present one; NULL for other lists. */
@@ -433,6 +437,19 @@ static bool check_map(checker *c, const gltf_field *field)
     return true;
 }
 
+static bool check_maps(checker *c, const gltf_field *field)
+{
+    const gltf_field item = {.key = field->key, .flags = field->flags};
+    bool is_open;
+    if (!open_array(c, field, &is_open) || !is_open) return !c->json.error;
+    for (size_t i = 0; next_item(c, i); ++i) {
+        const size_t before = push_index(c, i);
+        if (!check_map(c, &item)) return false;
+        pop(c, before);
+    }
+    return !c->json.error;
+}
+
 /* One member's value. chosen receives the string of a field with choices. */
 static bool check_member(checker *c, const gltf_field *field, char *chosen)
 {
@@ -471,6 +488,8 @@ static bool check_value(checker *c, const gltf_field *field)
         return check_scalars(c, field);
     case GLTF_INDEX_MAP:
         return check_map(c, field);
+    case GLTF_INDEX_MAPS:
+        return check_maps(c, field);
     default:
         return skip_value(c);
     }

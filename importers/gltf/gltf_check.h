@@ -4,7 +4,7 @@
  * without a word, and reads out of bounds on some files. So the text is walked once against tables
  * of what we use: types, ranges and lengths. What comes out is
  *   - a text for tinygltf in which broken elements are replaced by a harmless one of their kind,
- *     broken optional values by null, and buffers, images, animations and skins by empty lists;
+ *     broken optional values by null, and buffers and images by empty lists;
  *   - for every element whether it was broken and why: using it is then an error or a warning;
  *   - buffers and images, as places in the original text. */
 #ifndef PPMI_GLTF_CHECK_H

@@ -67,7 +67,7 @@ static void count_primitive(const ppmi_gltf_primitive *primitive, size_t counts[
     const bool is_point = primitive->mode == 0;
     counts[POINTS] += is_point;
     counts[LINES] += !is_point && primitive->mode < PPMI_GLTF_TRIANGLES;
-    counts[MORPH_TARGETS] += primitive->has_targets;
+    counts[MORPH_TARGETS] += primitive->target_count > 0;
     counts[VERTEX_COLORS] += has_set(primitive, "COLOR_", 0);
     counts[MORE_COLORS] += has_set(primitive, "COLOR_", 1);
     counts[MORE_UV_SETS] += has_set(primitive, "TEXCOORD_", PPM_MAX_UV_SETS);

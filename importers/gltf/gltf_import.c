@@ -43,7 +43,9 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
                  {PPMI_GLTF_TEXTURES, d->texture_count},
                  {PPMI_GLTF_SAMPLERS, d->sampler_count},
                  {PPMI_GLTF_CAMERAS, d->camera_count},
-                 {PPMI_GLTF_LIGHTS, d->light_count}};
+                 {PPMI_GLTF_LIGHTS, d->light_count},
+                 {PPMI_GLTF_SKINS, d->skin_count},
+                 {PPMI_GLTF_ANIMATIONS, d->animation_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,

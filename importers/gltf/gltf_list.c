@@ -1,5 +1,5 @@
-/* Phrases for people, from the document and, for what the document leaves out (animations, images,
- * variants, names of scenes), from the file's JSON. */
+/* Phrases for people, from the document and, for what the document leaves out (images, variants,
+ * bounds of accessors), from the file's JSON. */
 #include "gltf/gltf_list.h"
 
 #include <math.h>
@@ -62,18 +62,14 @@ static const char *name_in(const ppmi_gltf_reader *r, ppmi_gltf_span object, cha
 static void list_scenes(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
 {
     const ppmi_gltf_document *d = r->document;
-    const ppmi_gltf_span scenes = root_member(r, "scenes");
     const int32_t chosen = d->default_scene < 0 ? 0 : d->default_scene;
-    ppmi_gltf_span scene;
-    size_t cursor = 0;
     for (size_t i = 0; i < d->scene_count; ++i) {
-        char name[PPMI_GLTF_PLACE] = "", phrase[PHRASE] = "";
-        if (ppmi_gltf_scan_next(r->json, scenes, &cursor, &scene)) name_in(r, scene, name);
+        char phrase[PHRASE] = "";
         if (add_broken(r, catalog, PPMI_GLTF_SCENES, i, PPM_ASSET_SCENES)) continue;
         append(phrase, "%u root node%s%s", d->scenes[i].node_count,
                d->scenes[i].node_count == 1 ? "" : "s",
                (size_t)chosen == i ? ", the file's default" : "");
-        ppmi_catalog_add(catalog, PPM_ASSET_SCENES, name, phrase);
+        ppmi_catalog_add(catalog, PPM_ASSET_SCENES, d->scenes[i].name, phrase);
     }
 }
 
@@ -275,7 +271,7 @@ static void describe_mesh(const ppmi_gltf_reader *r, const ppmi_gltf_mesh *mesh,
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
         const ppmi_gltf_primitive *primitive = &mesh->primitives[i];
         const size_t elements = element_count(r, primitive);
-        has_targets = has_targets || primitive->has_targets;
+        has_targets = has_targets || primitive->target_count > 0;
         if (primitive->mode >= PPMI_GLTF_TRIANGLES) {
             triangles += triangle_count(primitive->mode, elements);
         } else if (primitive->mode == 0) {
@@ -335,7 +331,7 @@ static void list_materials(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
     }
 }
 
-/* ---- variants, animations, images: from the JSON --------------------------------------------- */
+/* ---- variants, animations, images --------------------------------------------- */
 
 static void list_variants(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
 {
@@ -355,56 +351,44 @@ typedef struct key_times {
     size_t count;
 } key_times;
 
+/* The first element of a list of numbers, such as an accessor's min. */
+static double first_number(const ppmi_gltf_reader *r, ppmi_gltf_span object, const char *key,
+                           double otherwise)
+{
+    const ppmi_gltf_span list = ppmi_gltf_scan_member(r->json, object, key);
+    ppmi_gltf_span element;
+    size_t cursor = 0;
+    if (!ppmi_gltf_scan_next(r->json, list, &cursor, &element)) return otherwise;
+    return ppmi_gltf_scan_number(r->json, element, otherwise);
+}
+
 static bool key_times_init(const ppmi_gltf_reader *r, key_times *times)
 {
     const ppmi_gltf_span accessors = root_member(r, "accessors");
-    ppmi_gltf_span accessor;
     size_t cursor = 0;
     times->count = r->document->accessor_count;
     times->first = ppmi_alloc(r->context, 2 * times->count + 1, sizeof *times->first);
     if (!times->first) return false;
     times->last = times->first + times->count;
     for (size_t i = 0; i < times->count; ++i) {
-        ppmi_gltf_span element = {0, 0};
-        size_t inner = 0;
-        times->first[i] = INFINITY;
-        times->last[i] = -INFINITY;
-        if (!ppmi_gltf_scan_next(r->json, accessors, &cursor, &accessor)) continue;
-        ppmi_gltf_scan_next(r->json, ppmi_gltf_scan_member(r->json, accessor, "min"), &inner,
-                            &element);
-        times->first[i] = ppmi_gltf_scan_number(r->json, element, INFINITY);
-        inner = 0;
-        element = (ppmi_gltf_span){0, 0};
-        ppmi_gltf_scan_next(r->json, ppmi_gltf_scan_member(r->json, accessor, "max"), &inner,
-                            &element);
-        times->last[i] = ppmi_gltf_scan_number(r->json, element, -INFINITY);
+        ppmi_gltf_span accessor = {0, 0};
+        ppmi_gltf_scan_next(r->json, accessors, &cursor, &accessor);
+        times->first[i] = first_number(r, accessor, "min", INFINITY);
+        times->last[i] = first_number(r, accessor, "max", -INFINITY);
     }
     return true;
 }
 
-static size_t count_elements(const ppmi_gltf_reader *r, ppmi_gltf_span array)
+/* From the first key of any sampler to the last; false when no accessor says so. */
+static bool animation_range(const ppmi_gltf_animation *animation, const key_times *times,
+                            double *out_begin, double *out_end)
 {
-    ppmi_gltf_span element;
-    size_t count = 0;
-    for (size_t cursor = 0; ppmi_gltf_scan_next(r->json, array, &cursor, &element);) {
-        ++count;
-    }
-    return count;
-}
-
-/* From the first key of any sampler to the last. */
-static bool animation_range(const ppmi_gltf_reader *r, ppmi_gltf_span animation,
-                            const key_times *times, double *out_begin, double *out_end)
-{
-    const ppmi_gltf_span samplers = ppmi_gltf_scan_member(r->json, animation, "samplers");
-    ppmi_gltf_span sampler;
     double begin = INFINITY, end = -INFINITY;
-    for (size_t cursor = 0; ppmi_gltf_scan_next(r->json, samplers, &cursor, &sampler);) {
-        const ppmi_gltf_span input = ppmi_gltf_scan_member(r->json, sampler, "input");
-        const double index = ppmi_gltf_scan_number(r->json, input, -1.0);
-        if (!(index >= 0.0 && index < (double)times->count)) continue;
-        begin = fmin(begin, times->first[(size_t)index]);
-        end = fmax(end, times->last[(size_t)index]);
+    for (uint32_t i = 0; i < animation->sampler_count; ++i) {
+        const int32_t input = animation->samplers[i].input;
+        if (input < 0 || (size_t)input >= times->count) continue;
+        begin = fmin(begin, times->first[input]);
+        end = fmax(end, times->last[input]);
     }
     if (!(isfinite(begin) && isfinite(end) && begin <= end)) return false;
     *out_begin = begin;
@@ -412,19 +396,18 @@ static bool animation_range(const ppmi_gltf_reader *r, ppmi_gltf_span animation,
     return true;
 }
 
-static void add_animation(const ppmi_gltf_reader *r, ppmi_catalog *catalog,
-                          ppmi_gltf_span animation, const key_times *times)
+static void add_animation(ppmi_catalog *catalog, const ppmi_gltf_animation *animation,
+                          const key_times *times)
 {
-    char name[PPMI_GLTF_PLACE], phrase[PHRASE] = "";
+    char phrase[PHRASE] = "";
     double begin = 0.0, end = 0.0;
-    const size_t channels =
-        count_elements(r, ppmi_gltf_scan_member(r->json, animation, "channels"));
-    if (animation_range(r, animation, times, &begin, &end)) {
+    if (animation_range(animation, times, &begin, &end)) {
         append(phrase, "%.4g .. %.4g s, ", begin, end);
     }
-    append(phrase, "%zu channel%s", channels, channels == 1 ? "" : "s");
+    append(phrase, "%u channel%s", animation->channel_count,
+           animation->channel_count == 1 ? "" : "s");
     ppmi_catalog_item *item =
-        ppmi_catalog_add(catalog, PPM_ASSET_ANIMATIONS, name_in(r, animation, name), phrase);
+        ppmi_catalog_add(catalog, PPM_ASSET_ANIMATIONS, animation->name, phrase);
     if (!item) return;
     item->begin_s = begin;
     item->end_s = end;
@@ -432,17 +415,16 @@ static void add_animation(const ppmi_gltf_reader *r, ppmi_catalog *catalog,
 
 static void list_animations(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
 {
-    const ppmi_gltf_span animations = root_member(r, "animations");
+    const ppmi_gltf_document *d = r->document;
     key_times times = {0};
-    ppmi_gltf_span animation;
-    size_t cursor = 0;
-    if (animations.begin == animations.end) return;
+    if (d->animation_count == 0) return;
     if (!key_times_init(r, &times)) {
         catalog->is_out_of_memory = true;
         return;
     }
-    while (ppmi_gltf_scan_next(r->json, animations, &cursor, &animation)) {
-        add_animation(r, catalog, animation, &times);
+    for (size_t i = 0; i < d->animation_count; ++i) {
+        if (add_broken(r, catalog, PPMI_GLTF_ANIMATIONS, i, PPM_ASSET_ANIMATIONS)) continue;
+        add_animation(catalog, &d->animations[i], &times);
     }
     ppmi_free(r->context, times.first);
 }

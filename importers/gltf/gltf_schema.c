@@ -70,34 +70,69 @@ static const gltf_field primitive[] = {
     FIELD("extras", GLTF_ANY, .rename = "_"),
     INDEX("material", GLTF_VITAL),
     FIELD("mode", GLTF_INTEGER, .flags = GLTF_VITAL, .max = 6),
+    FIELD("targets", GLTF_INDEX_MAPS, .flags = GLTF_VITAL),
     END};
 static const gltf_field mesh[] = {
     STRING("name"),
     FIELD("primitives", GLTF_OBJECTS, .flags = GLTF_VITAL | GLTF_REQUIRED, .fields = primitive),
-    END};
+    FIELD("weights", GLTF_NUMBERS, .flags = GLTF_VITAL), END};
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
 static const gltf_field node_light[] = {INDEX("light", GLTF_REQUIRED), END};
 static const gltf_field node_instancing[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
+static const gltf_field node_visibility[] = {FIELD("visible", GLTF_BOOLEAN), END};
 static const gltf_field node_extensions[] = {
     OBJECT("KHR_lights_punctual", node_light),
-    VITAL_OBJECT("EXT_mesh_gpu_instancing", node_instancing, 0), END};
+    VITAL_OBJECT("EXT_mesh_gpu_instancing", node_instancing, 0),
+    OBJECT("KHR_node_visibility", node_visibility), END};
 static const gltf_field node[] = {
     STRING("name"),
     INDEX("mesh", GLTF_VITAL),
     INDEX("camera", 0),
-    INDEX("skin", 0),
+    INDEX("skin", GLTF_VITAL),
     FIELD("children", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX),
     NUMBERS("matrix", 16, GLTF_VITAL),
     NUMBERS("translation", 3, GLTF_VITAL),
     NUMBERS("rotation", 4, GLTF_VITAL),
     NUMBERS("scale", 3, GLTF_VITAL),
+    FIELD("weights", GLTF_NUMBERS, .flags = GLTF_VITAL),
     OBJECT("extensions", node_extensions),
     END};
 static const gltf_field scene[] = {
     STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX), END};
+
+static const gltf_field skin[] = {
+    STRING("name"), INDEX("inverseBindMatrices", GLTF_VITAL),
+    FIELD("joints", GLTF_INTEGERS, .flags = GLTF_VITAL | GLTF_REQUIRED, .max = INDEX_MAX), END};
+
+/* ---- animations ------------------------------------------------------------------------------ */
+
+static const gltf_field animation_pointer[] = {
+    FIELD("pointer", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
+static const gltf_field animation_extensions[] = {
+    VITAL_OBJECT("KHR_animation_pointer", animation_pointer, 0), END};
+static const gltf_field animation_target[] = {
+    INDEX("node", GLTF_VITAL), FIELD("path", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED),
+    VITAL_OBJECT("extensions", animation_extensions, 0), END};
+static const gltf_field animation_channel[] = {
+    INDEX("sampler", GLTF_VITAL | GLTF_REQUIRED),
+    VITAL_OBJECT("target", animation_target, GLTF_REQUIRED), END};
+static const gltf_field animation_sampler[] = {
+    INDEX("input", GLTF_VITAL | GLTF_REQUIRED), INDEX("output", GLTF_VITAL | GLTF_REQUIRED),
+    FIELD("interpolation", GLTF_STRING, .flags = GLTF_VITAL,
+          .choices = " LINEAR STEP CUBICSPLINE "),
+    END};
+static const gltf_field animation[] = {
+    STRING("name"),
+    FIELD("channels", GLTF_OBJECTS, .flags = GLTF_VITAL | GLTF_REQUIRED, .min_items = 1,
+          .fields = animation_channel),
+    FIELD("samplers", GLTF_OBJECTS, .flags = GLTF_VITAL | GLTF_REQUIRED, .min_items = 1,
+          .fields = animation_sampler),
+    END};
+
+/* ---- cameras and lights ---------------------------------------------------------------------- */
 
 static const gltf_field perspective[] = {
     NUMBER("aspectRatio"), FIELD("yfov", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
@@ -203,8 +238,7 @@ static const gltf_field asset[] = {
     STRING("minVersion"), END};
 
 const gltf_field ppmi_gltf_schema[] = {
-    VITAL_OBJECT("asset", asset, GLTF_REQUIRED),
-    FIELD("extensionsUsed", GLTF_STRINGS),
+    VITAL_OBJECT("asset", asset, GLTF_REQUIRED), FIELD("extensionsUsed", GLTF_STRINGS),
     FIELD("extensionsRequired", GLTF_STRINGS, .flags = GLTF_VITAL),
     FIELD("scene", GLTF_INTEGER, .flags = GLTF_VITAL, .max = INDEX_MAX),
     LIST("scenes", PPMI_GLTF_SCENES, GLTF_VITAL, scene, "{}"),
@@ -221,7 +255,10 @@ const gltf_field ppmi_gltf_schema[] = {
     LIST("samplers", PPMI_GLTF_SAMPLERS, 0, sampler, "{}"),
     LIST("cameras", PPMI_GLTF_CAMERAS, 0, camera,
          "{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}"),
-    LIST("animations", PPMI_GLTF_ANIMATIONS, GLTF_EMPTY_FOR_TINYGLTF, no_fields, "{}"),
-    LIST("skins", PPMI_GLTF_SKINS, GLTF_EMPTY_FOR_TINYGLTF, no_fields, "{}"),
-    OBJECT("extensions", root_extensions),
-    END};
+    /* tinygltf drops channels without a node, which KHR_animation_pointer has. Under the key
+     * "extras" it hands the list on as it is, but for what is empty. */
+    FIELD("animations", GLTF_LIST, .list = PPMI_GLTF_ANIMATIONS, .fields = animation,
+          .placeholder = "{\"name\":\"\"}", .rename = "extras"),
+    FIELD("extras", GLTF_ANY, .rename = "_"),
+    LIST("skins", PPMI_GLTF_SKINS, GLTF_VITAL, skin, "{\"joints\":[]}"),
+    OBJECT("extensions", root_extensions), END};

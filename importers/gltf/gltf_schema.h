@@ -5,18 +5,19 @@
 #include <stdint.h>
 
 typedef enum gltf_kind {
-    GLTF_ANY = 0,  /* not looked at */
-    GLTF_INTEGER,  /* 0 or more, min..max */
-    GLTF_NUMBER,   /* min..max */
-    GLTF_BOOLEAN,  /* */
-    GLTF_STRING,   /* one of choices, if there are any */
-    GLTF_OBJECT,   /* with fields */
-    GLTF_LIST,     /* of objects with fields; its elements are counted and may break one by one */
-    GLTF_OBJECTS,  /* array of objects with fields; a broken one breaks the element around it */
-    GLTF_NUMBERS,  /* array of min_items..max_items numbers */
-    GLTF_INTEGERS, /* array of integers, min..max */
-    GLTF_STRINGS,  /* array of strings */
-    GLTF_INDEX_MAP /* object whose values are integers */
+    GLTF_ANY = 0,   /* not looked at */
+    GLTF_INTEGER,   /* 0 or more, min..max */
+    GLTF_NUMBER,    /* min..max */
+    GLTF_BOOLEAN,   /* */
+    GLTF_STRING,    /* one of choices, if there are any */
+    GLTF_OBJECT,    /* with fields */
+    GLTF_LIST,      /* of objects with fields; its elements are counted and may break one by one */
+    GLTF_OBJECTS,   /* array of objects with fields; a broken one breaks the element around it */
+    GLTF_NUMBERS,   /* array of min_items..max_items numbers */
+    GLTF_INTEGERS,  /* array of integers, min..max */
+    GLTF_STRINGS,   /* array of strings */
+    GLTF_INDEX_MAP, /* object whose values are integers */
+    GLTF_INDEX_MAPS /* array of such objects */
 } gltf_kind;
 
 enum {
@@ -32,7 +33,7 @@ typedef struct gltf_field {
     gltf_kind kind;
     uint8_t flags;
     uint8_t list;                    /* LIST: PPMI_GLTF_ */
-    uint8_t min_items, max_items;    /* NUMBERS */
+    uint8_t min_items, max_items;    /* NUMBERS; OBJECTS: min_items */
     double min, max;                 /* INTEGER, NUMBER, INTEGERS; both 0: any */
     double step;                     /* INTEGER: a multiple of this; 0: any */
     const char *choices;             /* STRING: " ONE TWO ", with spaces around each */

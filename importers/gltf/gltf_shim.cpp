@@ -35,10 +35,16 @@ struct Document : ppmi_gltf_document {
     std::vector<ppmi_gltf_sampler> sampler_items;
     std::vector<ppmi_gltf_camera> camera_items;
     std::vector<ppmi_gltf_light> light_items;
+    std::vector<ppmi_gltf_skin> skin_items;
+    std::vector<ppmi_gltf_animation> animation_items;
     // deques: what is in them stays where it is
     std::deque<std::vector<ppmi_gltf_attribute>> attribute_lists;
     std::deque<std::vector<ppmi_gltf_primitive>> primitive_lists;
     std::deque<std::map<std::string, int>> instance_maps;
+    std::deque<std::vector<ppmi_gltf_target>> target_lists;
+    std::deque<std::vector<ppmi_gltf_channel>> channel_lists;
+    std::deque<std::vector<ppmi_gltf_animation_sampler>> sampler_lists;
+    std::deque<std::string> strings;
 };
 
 // ---- extension values ---------------------------------------------------------------------------
@@ -225,6 +231,21 @@ const ppmi_gltf_attribute *copy_attributes(Document *document,
     return document->attribute_lists.back().data();
 }
 
+const ppmi_gltf_target *copy_targets(Document *document, const tinygltf::Primitive &from,
+                                     uint32_t *count)
+{
+    std::vector<ppmi_gltf_target> list;
+    list.reserve(from.targets.size());
+    for (const auto &map : from.targets) {
+        ppmi_gltf_target target = {};
+        target.attributes = copy_attributes(document, map, &target.attribute_count);
+        list.push_back(target);
+    }
+    *count = static_cast<uint32_t>(list.size());
+    document->target_lists.push_back(std::move(list));
+    return document->target_lists.back().data();
+}
+
 ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive &from)
 {
     ppmi_gltf_primitive out = {};
@@ -232,7 +253,7 @@ ppmi_gltf_primitive copy_primitive(Document *document, const tinygltf::Primitive
     out.indices = from.extras.IsInt() ? from.extras.GetNumberAsInt() : -1; // gltf_schema.c
     out.material = from.material;
     out.attributes = copy_attributes(document, from.attributes, &out.attribute_count);
-    out.has_targets = !from.targets.empty();
+    out.targets = copy_targets(document, from, &out.target_count);
     out.is_draco = from.extensions.count("KHR_draco_mesh_compression") > 0;
     return out;
 }
@@ -246,7 +267,8 @@ ppmi_gltf_mesh copy_mesh(Document *document, const tinygltf::Mesh &from)
     }
     document->primitive_lists.push_back(std::move(list));
     const auto &kept = document->primitive_lists.back();
-    return {from.name.c_str(), static_cast<uint32_t>(kept.size()), kept.data()};
+    return {from.name.c_str(), static_cast<uint32_t>(kept.size()), kept.data(),
+            static_cast<uint32_t>(from.weights.size()), from.weights.data()};
 }
 
 // ---- nodes --------------------------------------------------------------------------------------
@@ -282,7 +304,80 @@ ppmi_gltf_node copy_node(Document *document, const tinygltf::Node &from)
     if (from.rotation.size() != 4) out.rotation[3] = 1.0;
     copy_numbers(from.scale, out.scale, 3, 1.0);
     copy_instancing(document, extension(from.extensions, "EXT_mesh_gpu_instancing"), &out);
+    out.weight_count = static_cast<uint32_t>(from.weights.size());
+    out.weights = from.weights.data();
+    const Value &visible = member(extension(from.extensions, "KHR_node_visibility"), "visible");
+    out.visibility = visible.IsBool() && !visible.Get<bool>() ? 0.0 : 1.0;
     return out;
+}
+
+ppmi_gltf_skin copy_skin(const tinygltf::Skin &from)
+{
+    return {from.name.c_str(), from.inverseBindMatrices, static_cast<uint32_t>(from.joints.size()),
+            from.joints.data()};
+}
+
+// ---- animations ---------------------------------------------------------------------------------
+
+// A string of a value, kept by the document; "" for anything else.
+const char *keep_string(Document *document, const Value &value)
+{
+    document->strings.push_back(value.IsString() ? value.Get<std::string>() : std::string());
+    return document->strings.back().c_str();
+}
+
+ppmi_gltf_channel copy_channel(Document *document, const Value &from)
+{
+    const Value &target = member(from, "target");
+    const Value &pointer =
+        member(member(member(target, "extensions"), "KHR_animation_pointer"), "pointer");
+    ppmi_gltf_channel out = {};
+    out.sampler = index_or(from, "sampler", -1);
+    out.node = index_or(target, "node", -1);
+    out.path = keep_string(document, member(target, "path"));
+    out.pointer = pointer.IsString() ? keep_string(document, pointer) : nullptr;
+    return out;
+}
+
+ppmi_gltf_animation_sampler copy_animation_sampler(const Value &from)
+{
+    const Value &word = member(from, "interpolation");
+    const std::string interpolation = word.IsString() ? word.Get<std::string>() : std::string();
+    return {index_or(from, "input", -1), index_or(from, "output", -1),
+            interpolation == "STEP"          ? PPMI_GLTF_STEP
+            : interpolation == "CUBICSPLINE" ? PPMI_GLTF_CUBICSPLINE
+                                             : PPMI_GLTF_LINEAR};
+}
+
+ppmi_gltf_animation copy_animation(Document *document, const Value &from)
+{
+    const Value &channels = member(from, "channels"), &samplers = member(from, "samplers");
+    const size_t channel_count = channels.IsArray() ? channels.ArrayLen() : 0;
+    const size_t sampler_count = samplers.IsArray() ? samplers.ArrayLen() : 0;
+    document->channel_lists.emplace_back();
+    document->sampler_lists.emplace_back();
+    auto &channel_list = document->channel_lists.back();
+    auto &sampler_list = document->sampler_lists.back();
+    for (size_t i = 0; i < channel_count; ++i) {
+        channel_list.push_back(copy_channel(document, channels.Get(i)));
+    }
+    for (size_t i = 0; i < sampler_count; ++i) {
+        sampler_list.push_back(copy_animation_sampler(samplers.Get(i)));
+    }
+    return {keep_string(document, member(from, "name")), static_cast<uint32_t>(sampler_count),
+            static_cast<uint32_t>(channel_count), sampler_list.data(), channel_list.data()};
+}
+
+// They stand where gltf_schema.c has put them.
+void copy_animations(Document *document)
+{
+    const Value &list = document->model.extras;
+    const size_t count = list.IsArray() ? list.ArrayLen() : 0;
+    for (size_t i = 0; i < count; ++i) {
+        document->animation_items.push_back(copy_animation(document, list.Get(i)));
+    }
+    document->animations = document->animation_items.data();
+    document->animation_count = count;
 }
 
 ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
@@ -334,7 +429,8 @@ void copy_model(Document *d)
     d->default_scene = model.defaultScene;
     copy_all(model.scenes, &d->scene_items, &d->scenes, &d->scene_count,
              [](const tinygltf::Scene &s) {
-                 return ppmi_gltf_scene{static_cast<uint32_t>(s.nodes.size()), s.nodes.data()};
+                 return ppmi_gltf_scene{s.name.c_str(), static_cast<uint32_t>(s.nodes.size()),
+                                        s.nodes.data()};
              });
     copy_all(model.nodes, &d->node_items, &d->nodes, &d->node_count,
              [d](const tinygltf::Node &n) { return copy_node(d, n); });
@@ -351,6 +447,8 @@ void copy_model(Document *d)
              });
     copy_all(model.cameras, &d->camera_items, &d->cameras, &d->camera_count, copy_camera);
     copy_all(model.lights, &d->light_items, &d->lights, &d->light_count, copy_light);
+    copy_all(model.skins, &d->skin_items, &d->skins, &d->skin_count, copy_skin);
+    copy_animations(d);
 }
 
 ppm_status load(ppm_context *context, const char *file, const char *text, size_t length,

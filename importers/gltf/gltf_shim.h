@@ -1,8 +1,8 @@
 /* tinygltf behind a C interface: a checked text in, plain structs out. C interface of a C++ shim:
  * no exception leaves it.
  *
- * The text comes from gltf_check.c, so buffers, images, animations and skins are not in it, every
- * value has the right type, and broken elements stand there as harmless ones. Indices may be out of
+ * The text comes from gltf_check.c, so buffers and images are not in it, every value has the right
+ * type, and broken elements stand there as harmless ones. Indices may be out of
  * range: whoever uses one checks it. -1 is "none". */
 #ifndef PPMI_GLTF_SHIM_H
 #define PPMI_GLTF_SHIM_H
@@ -52,18 +52,27 @@ typedef struct ppmi_gltf_attribute {
     int32_t accessor;
 } ppmi_gltf_attribute;
 
+/* A morph target: differences of some of the primitive's attributes. */
+typedef struct ppmi_gltf_target {
+    uint32_t attribute_count;
+    const ppmi_gltf_attribute *attributes;
+} ppmi_gltf_target;
+
 typedef struct ppmi_gltf_primitive {
     int32_t mode, indices, material;
     uint32_t attribute_count;
     const ppmi_gltf_attribute *attributes;
-    bool has_targets; /* morph targets */
-    bool is_draco;    /* KHR_draco_mesh_compression is given */
+    uint32_t target_count;
+    const ppmi_gltf_target *targets;
+    bool is_draco; /* KHR_draco_mesh_compression is given */
 } ppmi_gltf_primitive;
 
 typedef struct ppmi_gltf_mesh {
     const char *name; /* as all names: never NULL, "" for none */
     uint32_t primitive_count;
     const ppmi_gltf_primitive *primitives;
+    uint32_t weight_count; /* of morph targets */
+    const double *weights;
 } ppmi_gltf_mesh;
 
 typedef struct ppmi_gltf_node {
@@ -77,9 +86,41 @@ typedef struct ppmi_gltf_node {
     bool is_instanced; /* EXT_mesh_gpu_instancing */
     uint32_t instance_attribute_count;
     const ppmi_gltf_attribute *instance_attributes;
+    uint32_t weight_count; /* of morph targets; 0: the mesh's weights */
+    const double *weights;
+    double visibility; /* KHR_node_visibility: 1 or 0; a number, as animations set it */
 } ppmi_gltf_node;
 
+typedef struct ppmi_gltf_skin {
+    const char *name;
+    int32_t inverse_bind_matrices; /* an accessor, or -1 */
+    uint32_t joint_count;
+    const int32_t *joints; /* nodes */
+} ppmi_gltf_skin;
+
+enum { PPMI_GLTF_LINEAR, PPMI_GLTF_STEP, PPMI_GLTF_CUBICSPLINE };
+
+typedef struct ppmi_gltf_animation_sampler {
+    int32_t input, output; /* accessors */
+    int32_t interpolation;
+} ppmi_gltf_animation_sampler;
+
+typedef struct ppmi_gltf_channel {
+    int32_t sampler;
+    int32_t node;        /* -1: none */
+    const char *path;    /* "translation" and the like */
+    const char *pointer; /* of KHR_animation_pointer; NULL for none */
+} ppmi_gltf_channel;
+
+typedef struct ppmi_gltf_animation {
+    const char *name;
+    uint32_t sampler_count, channel_count;
+    const ppmi_gltf_animation_sampler *samplers;
+    const ppmi_gltf_channel *channels;
+} ppmi_gltf_animation;
+
 typedef struct ppmi_gltf_scene {
+    const char *name;
     uint32_t node_count;
     const int32_t *nodes;
 } ppmi_gltf_scene;
@@ -147,7 +188,7 @@ typedef struct ppmi_gltf_document {
     const char *const *extensions_used;
     const char *const *extensions_required;
     size_t scene_count, node_count, mesh_count, accessor_count, buffer_view_count, material_count,
-        texture_count, sampler_count, camera_count, light_count;
+        texture_count, sampler_count, camera_count, light_count, skin_count, animation_count;
     const ppmi_gltf_scene *scenes;
     const ppmi_gltf_node *nodes;
     const ppmi_gltf_mesh *meshes;
@@ -158,6 +199,8 @@ typedef struct ppmi_gltf_document {
     const ppmi_gltf_sampler *samplers;
     const ppmi_gltf_camera *cameras;
     const ppmi_gltf_light *lights;
+    const ppmi_gltf_skin *skins;
+    const ppmi_gltf_animation *animations;
 } ppmi_gltf_document;
 
 /* file is for messages. Returns OK, INPUT_INVALID with tinygltf's text, OUT_OF_MEMORY. */

@@ -98,9 +98,10 @@ PPM_API ppm_status ppm_render_options_resolve(const ppm_scene *scene,
 /* Makes a session: freezes the scene, builds acceleration structures and light tables, allocates
  * the film. The scene must outlive the session. options may be NULL.
  * A scene without a camera gets ppm_scene_add_framing_camera, one without any light a uniform
- * environment of 1 nit with a grey backdrop; both are logged (INFO). Several sessions may share a
- * frozen scene. Returns OK, INVALID_ARGUMENT (also: nothing to focus on), WRONG_STATE (nothing to
- * render), OUT_OF_MEMORY. */
+ * environment of 1 nit with a grey backdrop until the session ends; both are logged (INFO). Several
+ * sessions may share a frozen scene; one thread at a time makes and destroys those of a scene.
+ * Returns OK, INVALID_ARGUMENT (also: nothing to focus on), WRONG_STATE (nothing to render),
+ * OUT_OF_MEMORY. */
 PPM_API ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
                                      ppm_render **out_render);
 PPM_API void ppm_render_destroy(ppm_render *render);

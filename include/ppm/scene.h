@@ -242,13 +242,15 @@ PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_d
 
 /* What follows changes what has been added, between two renders: it returns WRONG_STATE while a
  * render session of the scene is alive, INVALID_ARGUMENT for an unknown id or a value that adding
- * would refuse, and OUT_OF_MEMORY. What does not change keeps its acceleration structure for the
- * next session. */
+ * would refuse, and OUT_OF_MEMORY; a call that fails changes nothing. Names stay as they were. What
+ * does not change keeps its acceleration structure for the next session. */
 
-/* A new transform, or motion, as in ppm_instance_desc; name and mesh of desc are not used. */
+/* A new transform, or motion, as in ppm_instance_desc; name and mesh of desc are not used. While
+ * its transform is singular (at all motion steps) the instance is not there: give one that is not
+ * to ppm_scene_add_instance, which drops such instances, where they are to appear later. */
 PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
                                           const ppm_instance_desc *desc);
-/* Whether the instance is there at all; it is when added. */
+/* Whether the instance is there at all: for rays, light and bounds; it is when added. */
 PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
                                                   uint32_t is_visible);
 /* New vertices of one primitive: positions, normals, tangents and motion_steps of desc; its

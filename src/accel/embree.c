@@ -93,7 +93,7 @@ static void build_mesh(ppmi_accel *accel, const ppmi_mesh *mesh, uint32_t index)
 
 static void attach_instance(ppmi_accel *accel, const ppmi_instance *instance, uint32_t index)
 {
-    if (!accel->meshes[instance->mesh]) return;
+    if (!accel->meshes[instance->mesh] || !ppmi_instance_is_there(instance)) return;
     const ppmi_transform *m = &instance->to_world;
     const float columns[12] = {m->x.x, m->x.y, m->x.z, m->y.x,      m->y.y,      m->y.z,
                                m->z.x, m->z.y, m->z.z, m->origin.x, m->origin.y, m->origin.z};

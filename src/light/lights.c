@@ -83,9 +83,10 @@ static float emitter_power(const ppmi_lights *lights, const ppmi_emitter *e)
     return isfinite(power) ? power : 0.0f;
 }
 
-static bool primitive_emits(const ppm_scene *scene, const ppmi_primitive *primitive)
+static bool primitive_emits(const ppm_scene *scene, const ppmi_instance *instance,
+                            const ppmi_primitive *primitive)
 {
-    return scene->materials[primitive->material].emits;
+    return ppmi_instance_is_there(instance) && scene->materials[primitive->material].emits;
 }
 
 /* Counts emissive triangles and instance-primitive slots. */
@@ -97,7 +98,7 @@ static void count_emitters(const ppm_scene *scene, uint64_t *out_triangles, uint
         const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
         *out_slots += mesh->primitive_count;
         for (uint32_t k = 0; k < mesh->primitive_count; k++) {
-            if (primitive_emits(scene, &mesh->primitives[k])) {
+            if (primitive_emits(scene, &scene->instances[i], &mesh->primitives[k])) {
                 *out_triangles += mesh->primitives[k].triangle_count;
             }
         }
@@ -142,7 +143,7 @@ static void add_emitters(ppmi_lights *lights)
         const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
         lights->first_slot[i] = slot;
         for (uint32_t k = 0; k < mesh->primitive_count; k++, slot++) {
-            const bool emits = primitive_emits(scene, &mesh->primitives[k]);
+            const bool emits = primitive_emits(scene, &scene->instances[i], &mesh->primitives[k]);
             lights->first_emitter[slot] = emits ? lights->count : PPMI_NO_EMITTER;
             if (emits) add_triangles(lights, i, k, &mesh->primitives[k]);
         }

@@ -234,6 +234,7 @@ static ppm_status complete_scene(ppm_scene *scene, const ppm_render_options *opt
                                                   .has_backdrop = 1,
                                                   .backdrop = {0.25f, 0.25f, 0.25f}};
         status = ppm_scene_set_environment(scene, &environment);
+        scene->environment_is_assumed = status == PPM_STATUS_OK;
         ppmi_log(scene->context, PPM_LOG_INFO,
                  "no light in the scene but emissive textures at most: lit by a uniform "
                  "environment of 1 nit, before a grey backdrop");
@@ -347,17 +348,23 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     }
     ppm_status status = complete_scene(scene, options);
     if (status != PPM_STATUS_OK) return status;
+    ppmi_scene_freeze(scene);
     ppm_render_options resolved;
     status = ppm_render_options_resolve(scene, options, &resolved);
-    if (status != PPM_STATUS_OK) return status;
-    ppm_render *render = ppmi_alloc_zeroed(scene->context, 1, sizeof *render);
-    if (!render) return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory");
+    ppm_render *render = NULL;
+    if (status == PPM_STATUS_OK) {
+        render = ppmi_alloc_zeroed(scene->context, 1, sizeof *render);
+        if (!render) status = ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory");
+    }
+    if (status != PPM_STATUS_OK) {
+        ppmi_scene_thaw(scene);
+        return status;
+    }
     render->context = scene->context;
     render->scene = scene;
     render->options = resolved;
     render->photons_are_free = !options || options->photons_per_pass == 0;
     warn_about_the_lens(scene, options, &resolved);
-    ppmi_scene_freeze(scene);
     status = start(render);
     if (status != PPM_STATUS_OK) {
         ppm_render_destroy(render);
@@ -376,6 +383,7 @@ void ppm_render_destroy(ppm_render *render)
     ppmi_accel_destroy(render->accel);
     ppmi_free(render->context, render->albedo);
     ppmi_free(render->context, render->spectrum);
+    ppmi_scene_thaw(render->scene);
     ppmi_free(render->context, render);
 }
 

@@ -56,6 +56,8 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .name = name_copy,
         .kind = desc->kind,
         .origin = to_world.origin,
+        .given_origin = to_world.origin,
+        .motion_steps = 1,
         .right = right,
         .up = up,
         .forward = vec3_neg(back),
@@ -67,6 +69,26 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .focus_distance_m = desc->focus_distance_m,
     };
     *out_id = ++scene->camera_count;
+    return PPM_STATUS_OK;
+}
+
+/* Made and checked as an added one, which then takes the old one's place. */
+ppm_status ppm_scene_set_camera(ppm_scene *scene, ppm_camera_id id, const ppm_camera_desc *desc)
+{
+    ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (id == 0 || id > scene->camera_count) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT, "camera %u of %u", id,
+                         scene->camera_count);
+    }
+    ppm_camera_id added;
+    status = ppm_scene_add_camera(scene, desc, &added);
+    if (status != PPM_STATUS_OK) return status;
+    ppmi_camera *last = &scene->cameras[--scene->camera_count];
+    ppmi_free(scene->context, last->name);
+    ppmi_free(scene->context, scene->cameras[id - 1].motion);
+    last->name = scene->cameras[id - 1].name;
+    scene->cameras[id - 1] = *last;
     return PPM_STATUS_OK;
 }
 
@@ -190,6 +212,7 @@ ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm
         .name = name_copy,
         .kind = desc->kind,
         .position = to_world.origin,
+        .given_position = to_world.origin,
         .direction = vec3_neg(back),
         .intensity = vec3_load(desc->intensity),
         .cos_inner = cosf(desc->inner_cone_rad),
@@ -197,5 +220,24 @@ ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc, ppm
         .angular_radius_rad = has_disk ? desc->angular_radius_rad : 0.0f,
     };
     *out_id = ++scene->punctual_count;
+    return PPM_STATUS_OK;
+}
+
+/* Made and checked as an added one, which then takes the old one's place. */
+ppm_status ppm_scene_set_light(ppm_scene *scene, ppm_light_id id, const ppm_light_desc *desc)
+{
+    ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (id == 0 || id > scene->punctual_count) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT, "light %u of %u", id,
+                         scene->punctual_count);
+    }
+    ppm_light_id added;
+    status = ppm_scene_add_light(scene, desc, &added);
+    if (status != PPM_STATUS_OK) return status;
+    ppmi_punctual *last = &scene->punctuals[--scene->punctual_count];
+    ppmi_free(scene->context, last->name);
+    last->name = scene->punctuals[id - 1].name;
+    scene->punctuals[id - 1] = *last;
     return PPM_STATUS_OK;
 }

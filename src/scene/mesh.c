@@ -31,23 +31,39 @@ static bool copy_optional(ppm_scene *scene, const float *values, size_t count, f
     return *out_copy != NULL;
 }
 
+/* What moves with the vertices: one block a motion step. */
+static bool copy_vertices(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t steps,
+                          ppmi_primitive *primitive)
+{
+    const size_t count = (size_t)steps * desc->vertex_count;
+    primitive->motion_steps = steps;
+    primitive->positions = copy_floats(scene, desc->positions, 3 * count, 4);
+    return primitive->positions &&
+           copy_optional(scene, desc->normals, 3 * count, &primitive->normals) &&
+           copy_optional(scene, desc->tangents, 4 * count, &primitive->tangents);
+}
+
 static bool copy_attributes(ppm_scene *scene, const ppm_primitive_desc *desc,
                             ppmi_primitive *primitive)
 {
     const size_t count = desc->vertex_count;
-    primitive->positions = copy_floats(scene, desc->positions, 3 * count, 4);
-    if (!primitive->positions) return false;
     for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++) {
         if (!copy_optional(scene, desc->uvs[i], 2 * count, &primitive->uvs[i])) return false;
     }
-    return copy_optional(scene, desc->normals, 3 * count, &primitive->normals) &&
-           copy_optional(scene, desc->tangents, 4 * count, &primitive->tangents) &&
-           copy_optional(scene, desc->colors, 4 * count, &primitive->colors);
+    return copy_optional(scene, desc->colors, 4 * count, &primitive->colors);
 }
 
-static ppmi_vec3 position_at(const ppmi_primitive *primitive, uint32_t vertex)
+static uint32_t vertices_per_element(int32_t kind)
 {
-    return vec3_load(primitive->positions + 3 * (size_t)vertex);
+    return kind == PPM_PRIMITIVE_POINTS ? 1 : kind == PPM_PRIMITIVE_LINES ? 2 : 3;
+}
+
+/* ---- which elements there are ---------------------------------------------------------------- */
+
+static ppmi_vec3 position_at(const ppmi_primitive *primitive, uint32_t step, uint32_t vertex)
+{
+    const size_t index = (size_t)step * primitive->vertex_count + vertex;
+    return vec3_load(primitive->positions + 3 * index);
 }
 
 /* Finite, and no square overflows. */
@@ -57,44 +73,89 @@ static bool is_usable(ppmi_vec3 p)
     return fabsf(p.x) < most && fabsf(p.y) < most && fabsf(p.z) < most;
 }
 
-/* Copies the triangles that can be hit, growing the mesh's bounds by them. */
-static void keep_triangles(const ppm_primitive_desc *desc, ppmi_primitive *primitive,
-                           ppmi_mesh *mesh, mesh_faults *faults)
+/* A triangle with an area, a line with a length. */
+static bool has_size(const ppmi_vec3 p[3], int32_t kind)
 {
-    uint32_t kept = 0;
-    for (size_t i = 0; i < desc->triangle_count; i++) {
-        const uint32_t *triangle = desc->indices + 3 * i;
-        const ppmi_vec3 p[3] = {position_at(primitive, triangle[0]),
-                                position_at(primitive, triangle[1]),
-                                position_at(primitive, triangle[2])};
-        if (!is_usable(p[0]) || !is_usable(p[1]) || !is_usable(p[2])) {
-            faults->not_finite++;
-            continue;
-        }
-        const ppmi_vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
-        if (vec3_max_abs(normal) == 0.0f) {
-            faults->no_area++;
-            continue;
-        }
-        memcpy(primitive->indices + 3 * (size_t)kept++, triangle, 3 * sizeof *triangle);
-        for (uint32_t k = 0; k < 3; k++) {
-            mesh->bounds_min =
-                vec3(ppmi_min(mesh->bounds_min.x, p[k].x), ppmi_min(mesh->bounds_min.y, p[k].y),
-                     ppmi_min(mesh->bounds_min.z, p[k].z));
-            mesh->bounds_max =
-                vec3(ppmi_max(mesh->bounds_max.x, p[k].x), ppmi_max(mesh->bounds_max.y, p[k].y),
-                     ppmi_max(mesh->bounds_max.z, p[k].z));
-        }
-    }
-    primitive->triangle_count = kept;
+    if (kind == PPM_PRIMITIVE_POINTS) return true;
+    const ppmi_vec3 edge = vec3_sub(p[1], p[0]);
+    if (kind == PPM_PRIMITIVE_LINES) return vec3_length2(edge) > 0.0f;
+    return vec3_max_abs(vec3_cross(edge, vec3_sub(p[2], p[0]))) != 0.0f;
 }
+
+/* Whether an element can be hit: it is finite at all steps, and of some size at one. Grows the
+ * primitive's bounds by those that can. */
+static bool keep_element(ppmi_primitive *primitive, const uint32_t *element, mesh_faults *faults)
+{
+    const uint32_t sides = vertices_per_element(primitive->kind);
+    const ppmi_vec3 room = vec3_splat(primitive->radius_m);
+    ppmi_vec3 low = primitive->bounds_min, high = primitive->bounds_max;
+    bool is_sized = false;
+    for (uint32_t step = 0; step < primitive->motion_steps; step++) {
+        ppmi_vec3 p[3];
+        for (uint32_t k = 0; k < sides; k++) {
+            p[k] = position_at(primitive, step, element[k]);
+            if (!is_usable(p[k])) {
+                faults->not_finite++;
+                return false;
+            }
+            const ppmi_vec3 from = vec3_sub(p[k], room), to = vec3_add(p[k], room);
+            low = vec3(ppmi_min(low.x, from.x), ppmi_min(low.y, from.y), ppmi_min(low.z, from.z));
+            high = vec3(ppmi_max(high.x, to.x), ppmi_max(high.y, to.y), ppmi_max(high.z, to.z));
+        }
+        is_sized = is_sized || has_size(p, primitive->kind);
+    }
+    if (!is_sized) {
+        faults->no_area++;
+        return false;
+    }
+    primitive->bounds_min = low;
+    primitive->bounds_max = high;
+    return true;
+}
+
+/* Copies the elements that can be hit. */
+static void keep_elements(const uint32_t *given, uint32_t given_count, ppmi_primitive *primitive,
+                          mesh_faults *faults)
+{
+    const size_t sides = vertices_per_element(primitive->kind);
+    uint32_t kept = 0;
+    primitive->bounds_min = vec3_splat(INFINITY);
+    primitive->bounds_max = vec3_splat(-INFINITY);
+    for (size_t i = 0; i < given_count; i++) {
+        const uint32_t *element = given + sides * i;
+        if (!keep_element(primitive, element, faults)) continue;
+        memmove(primitive->indices + sides * kept++, element, sides * sizeof *element);
+    }
+    primitive->element_count = kept;
+    primitive->triangle_count = primitive->kind == PPM_PRIMITIVE_TRIANGLES ? kept : 0;
+}
+
+static void update_bounds(ppmi_mesh *mesh)
+{
+    mesh->bounds_min = vec3_splat(INFINITY);
+    mesh->bounds_max = vec3_splat(-INFINITY);
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const ppmi_primitive *primitive = &mesh->primitives[i];
+        if (primitive->element_count == 0) continue;
+        const ppmi_vec3 low = primitive->bounds_min, high = primitive->bounds_max;
+        mesh->bounds_min =
+            vec3(ppmi_min(mesh->bounds_min.x, low.x), ppmi_min(mesh->bounds_min.y, low.y),
+                 ppmi_min(mesh->bounds_min.z, low.z));
+        mesh->bounds_max =
+            vec3(ppmi_max(mesh->bounds_max.x, high.x), ppmi_max(mesh->bounds_max.y, high.y),
+                 ppmi_max(mesh->bounds_max.z, high.z));
+    }
+}
+
+/* ---- values ---------------------------------------------------------------------------------- */
 
 /* Unit normals; those that cannot be normalised become zero, which shading reads as "the face's".
  */
 static void normalize_normals(ppmi_primitive *primitive, mesh_faults *faults)
 {
     if (!primitive->normals) return;
-    for (size_t i = 0; i < primitive->vertex_count; i++) {
+    const size_t count = (size_t)primitive->motion_steps * primitive->vertex_count;
+    for (size_t i = 0; i < count; i++) {
         float *normal = primitive->normals + 3 * i;
         const ppmi_vec3 n = vec3_load(normal);
         const float length = vec3_length(n);
@@ -111,6 +172,45 @@ static void replace_not_finite(float *values, size_t count, float by)
     }
 }
 
+static void clean_vertices(ppmi_primitive *primitive, mesh_faults *faults)
+{
+    normalize_normals(primitive, faults);
+    replace_not_finite(primitive->tangents,
+                       4 * (size_t)primitive->motion_steps * primitive->vertex_count, 0.0f);
+}
+
+static ppm_status check_steps(ppm_scene *scene, uint32_t steps, uint32_t index, const char *name)
+{
+    if (steps <= PPM_MAX_MOTION_STEPS) return PPM_STATUS_OK;
+    return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                     "mesh '%s', primitive %u: %u motion steps, at most %d", name, index, steps,
+                     PPM_MAX_MOTION_STEPS);
+}
+
+/* Elements of a desc, by its kind. */
+static uint32_t given_elements(const ppm_primitive_desc *desc)
+{
+    return desc->kind == PPM_PRIMITIVE_TRIANGLES ? desc->triangle_count : desc->element_count;
+}
+
+static ppm_status check_kind(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t index,
+                             const char *name)
+{
+    if (desc->kind < PPM_PRIMITIVE_TRIANGLES || desc->kind > PPM_PRIMITIVE_LINES) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "mesh '%s', primitive %u: no kind of number %d", name, index,
+                         (int)desc->kind);
+    }
+    if (desc->kind == PPM_PRIMITIVE_TRIANGLES) return PPM_STATUS_OK;
+    if (desc->triangle_count > 0 || !(desc->radius_m > 0.0f && desc->radius_m < 1e15f)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "mesh '%s', primitive %u: points and lines have a radius above 0, not %g, "
+                         "and no triangles, not %u",
+                         name, index, (double)desc->radius_m, desc->triangle_count);
+    }
+    return PPM_STATUS_OK;
+}
+
 static ppm_status check_primitive(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t index,
                                   const char *name)
 {
@@ -119,11 +219,15 @@ static ppm_status check_primitive(ppm_scene *scene, const ppm_primitive_desc *de
                          "mesh '%s', primitive %u: material %u of %u", name, index, desc->material,
                          scene->material_count);
     }
-    if (desc->triangle_count > 0 && (!desc->positions || !desc->indices)) {
+    ppm_status status = check_kind(scene, desc, index, name);
+    if (status == PPM_STATUS_OK) status = check_steps(scene, desc->motion_steps, index, name);
+    if (status != PPM_STATUS_OK) return status;
+    const uint32_t count = given_elements(desc);
+    if (count > 0 && (!desc->positions || !desc->indices)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "mesh '%s', primitive %u: no positions or indices", name, index);
     }
-    for (size_t i = 0; i < 3 * (size_t)desc->triangle_count; i++) {
+    for (size_t i = 0; i < (size_t)vertices_per_element(desc->kind) * count; i++) {
         if (desc->indices[i] >= desc->vertex_count) {
             return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                              "mesh '%s', primitive %u: index %zu is %u, of %u vertices", name,
@@ -133,21 +237,62 @@ static ppm_status check_primitive(ppm_scene *scene, const ppm_primitive_desc *de
     return PPM_STATUS_OK;
 }
 
+/* Blocks that are all alike are no motion. */
+static bool blocks_are_alike(const float *values, size_t count, uint32_t steps)
+{
+    for (uint32_t i = 1; values && i < steps; i++) {
+        if (memcmp(values, values + i * count, count * sizeof *values) != 0) return false;
+    }
+    return true;
+}
+
+static uint32_t steps_of(const ppm_primitive_desc *desc)
+{
+    const size_t count = desc->vertex_count;
+    const uint32_t steps = desc->motion_steps > 1 ? desc->motion_steps : 1;
+    return blocks_are_alike(desc->positions, 3 * count, steps) &&
+                   blocks_are_alike(desc->normals, 3 * count, steps) &&
+                   blocks_are_alike(desc->tangents, 4 * count, steps)
+               ? 1
+               : steps;
+}
+
+/* Keeps the given elements beside those that can be hit, where these are fewer: other vertices may
+ * bring others. */
+static bool keep_given(ppm_scene *scene, const uint32_t *given, uint32_t count,
+                       ppmi_primitive *primitive)
+{
+    if (primitive->element_count == count) return true;
+    const size_t size = vertices_per_element(primitive->kind) * sizeof *given;
+    primitive->given_indices = ppmi_alloc(scene->context, count, size);
+    if (!primitive->given_indices) return false;
+    memcpy(primitive->given_indices, given, count * size);
+    primitive->given_count = count;
+    return true;
+}
+
 static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t index,
                                  uint32_t default_material, ppmi_mesh *mesh, mesh_faults *faults)
 {
     ppmi_primitive *primitive = &mesh->primitives[index];
+    const uint32_t count = given_elements(desc);
     primitive->material = desc->material > 0 ? desc->material - 1 : default_material;
-    if (desc->triangle_count == 0) return PPM_STATUS_OK;
+    primitive->motion_steps = 1;
+    primitive->kind = desc->kind;
+    primitive->radius_m = desc->kind == PPM_PRIMITIVE_TRIANGLES ? 0.0f : desc->radius_m;
+    if (count == 0) return PPM_STATUS_OK;
     primitive->vertex_count = desc->vertex_count;
-    primitive->indices =
-        ppmi_alloc(scene->context, desc->triangle_count, 3 * sizeof *primitive->indices);
-    if (!primitive->indices || !copy_attributes(scene, desc, primitive)) {
+    primitive->indices = ppmi_alloc(scene->context, count,
+                                    vertices_per_element(desc->kind) * sizeof *primitive->indices);
+    if (!primitive->indices || !copy_vertices(scene, desc, steps_of(desc), primitive) ||
+        !copy_attributes(scene, desc, primitive)) {
         return out_of_memory(scene, mesh->name);
     }
-    keep_triangles(desc, primitive, mesh, faults);
-    normalize_normals(primitive, faults);
-    replace_not_finite(primitive->tangents, 4 * (size_t)primitive->vertex_count, 0.0f);
+    keep_elements(desc->indices, count, primitive, faults);
+    if (!keep_given(scene, desc->indices, count, primitive)) {
+        return out_of_memory(scene, mesh->name);
+    }
+    clean_vertices(primitive, faults);
     replace_not_finite(primitive->colors, 4 * (size_t)primitive->vertex_count, 1.0f);
     for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++) {
         replace_not_finite(primitive->uvs[i], 2 * (size_t)primitive->vertex_count, 0.0f);
@@ -224,6 +369,7 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
     scene->mesh_count++; /* from here ppm_scene_destroy frees what there is */
     mesh->bounds_min = vec3_splat(INFINITY);
     mesh->bounds_max = vec3_splat(-INFINITY);
+    mesh->shape_version = mesh->topology_version = 1;
     mesh->name = ppmi_string_copy(scene->context, name);
     mesh->primitives =
         ppmi_alloc_zeroed(scene->context, desc->primitive_count, sizeof *mesh->primitives);
@@ -236,60 +382,102 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
         status = fill_primitive(scene, &desc->primitives[i], i, default_material, mesh, &faults);
     }
     if (status != PPM_STATUS_OK) return status;
+    update_bounds(mesh);
     report_faults(scene, name, &faults);
     *out_id = scene->mesh_count;
     return PPM_STATUS_OK;
 }
 
-/* Scaled to unit size, so that tiny and huge scales neither underflow nor overflow. */
-static ppmi_transform normal_transform(const ppmi_transform *to_world, float determinant)
+/* ---- new vertices ---------------------------------------------------------------------------- */
+
+static ppm_status check_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
+                                 const ppm_primitive_desc *desc)
 {
-    ppmi_transform m = ppmi_transform_cofactors(to_world);
-    const float size = ppmi_max(vec3_max_abs(m.x), ppmi_max(vec3_max_abs(m.y), vec3_max_abs(m.z)));
-    const float scale = copysignf(1.0f / size, determinant);
-    m.x = vec3_scale(m.x, scale);
-    m.y = vec3_scale(m.y, scale);
-    m.z = vec3_scale(m.z, scale);
-    return m;
+    if (!desc || id == 0 || id > scene->mesh_count ||
+        primitive >= scene->meshes[id - 1].primitive_count) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "new vertices: no primitive %u in mesh %u, of %u meshes", primitive, id,
+                         scene->mesh_count);
+    }
+    const ppmi_mesh *mesh = &scene->meshes[id - 1];
+    const uint32_t count = mesh->primitives[primitive].vertex_count;
+    if (desc->vertex_count != count || (count > 0 && !desc->positions)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "mesh '%s', primitive %u: %u new vertices %s, expected %u", mesh->name,
+                         primitive, desc->vertex_count,
+                         desc->positions ? "given" : "without positions", count);
+    }
+    return check_steps(scene, desc->motion_steps, primitive, mesh->name);
 }
 
-ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,
-                                  ppm_instance_id *out_id)
+static void free_vertices(ppm_context *context, ppmi_primitive *primitive)
 {
-    const ppm_status status = ppmi_scene_check_open(scene);
+    ppmi_free(context, primitive->positions);
+    ppmi_free(context, primitive->normals);
+    ppmi_free(context, primitive->tangents);
+}
+
+/* Which elements can be hit with the new vertices. Where some could not before, or cannot now, all
+ * are looked at again; out_changes: they are not the same. False when memory is out. */
+static bool choose_again(ppm_scene *scene, ppmi_primitive *primitive, mesh_faults *faults,
+                         bool *out_changes)
+{
+    const uint32_t before = primitive->element_count;
+    const size_t size = vertices_per_element(primitive->kind) * sizeof *primitive->indices;
+    const uint32_t count = primitive->given_indices ? primitive->given_count : before;
+    const uint32_t *given =
+        primitive->given_indices ? primitive->given_indices : primitive->indices;
+    uint32_t *all = ppmi_alloc(scene->context, count, size), *kept = NULL;
+    if (count > 0 && !all) return false;
+    if (count > 0) memcpy(all, given, count * size);
+    if (primitive->given_indices) {
+        kept = ppmi_alloc(scene->context, count, size);
+        if (!kept) {
+            ppmi_free(scene->context, all);
+            return false;
+        }
+    }
+    uint32_t *old = primitive->indices;
+    if (kept) primitive->indices = kept;
+    keep_elements(all, count, primitive, faults);
+    *out_changes = primitive->element_count != before ||
+                   (before > 0 && memcmp(kept ? old : all, primitive->indices, before * size) != 0);
+    if (kept) ppmi_free(scene->context, old);
+    if (primitive->element_count < count && !primitive->given_indices) {
+        primitive->given_indices = all;
+        primitive->given_count = count;
+    } else {
+        ppmi_free(scene->context, all);
+    }
+    return true;
+}
+
+ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
+                                       const ppm_primitive_desc *desc)
+{
+    ppm_status status = ppmi_scene_check_open(scene);
     if (status != PPM_STATUS_OK) return status;
-    if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
-    const char *name = desc->name ? desc->name : "";
-    const ppmi_transform to_world = ppmi_transform_load(desc->transform);
-    if (desc->mesh == 0 || desc->mesh > scene->mesh_count || !ppmi_transform_is_finite(&to_world)) {
-        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "instance '%s': mesh %u of %u, or a transform that is not finite", name,
-                         desc->mesh, scene->mesh_count);
+    status = check_vertices(scene, id, primitive, desc);
+    if (status != PPM_STATUS_OK) return status;
+    ppmi_mesh *mesh = &scene->meshes[id - 1];
+    ppmi_primitive *target = &mesh->primitives[primitive];
+    if (target->vertex_count == 0) return PPM_STATUS_OK;
+    const uint32_t steps = steps_of(desc);
+    ppmi_primitive changed = *target;
+    changed.positions = changed.normals = changed.tangents = NULL;
+    mesh_faults faults = {0};
+    bool elements_change = false;
+    if (!copy_vertices(scene, desc, steps, &changed) ||
+        !choose_again(scene, &changed, &faults, &elements_change)) {
+        free_vertices(scene->context, &changed);
+        return out_of_memory(scene, mesh->name);
     }
-    const float determinant = ppmi_transform_determinant(&to_world);
-    if (!(fabsf(determinant) > 0.0f)) {
-        ppmi_log(scene->context, PPM_LOG_WARNING,
-                 "node '%s': its scale is zero along an axis; left out", name);
-        *out_id = 0;
-        return PPM_STATUS_OK;
-    }
-    ppmi_instance *instances =
-        ppmi_scene_grow(scene->context, scene->instances, scene->instance_count, sizeof *instances);
-    if (!instances) return PPM_STATUS_OUT_OF_MEMORY;
-    scene->instances = instances;
-    char *name_copy = ppmi_string_copy(scene->context, name);
-    if (!name_copy) {
-        return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for an instance");
-    }
-    instances[scene->instance_count] = (ppmi_instance){
-        .name = name_copy,
-        .mesh = desc->mesh - 1,
-        .to_world = to_world,
-        .normals = normal_transform(&to_world, determinant),
-        .scale = ppmi_max(vec3_length(to_world.x),
-                          ppmi_max(vec3_length(to_world.y), vec3_length(to_world.z))),
-        .is_mirrored = determinant < 0.0f,
-    };
-    *out_id = ++scene->instance_count;
+    clean_vertices(&changed, &faults);
+    free_vertices(scene->context, target);
+    if (elements_change || steps != target->motion_steps) mesh->topology_version++;
+    mesh->shape_version++;
+    *target = changed;
+    update_bounds(mesh);
+    report_faults(scene, mesh->name, &faults);
     return PPM_STATUS_OK;
 }

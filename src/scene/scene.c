@@ -3,12 +3,14 @@
 
 #include <string.h>
 
+#include "scene/instance.h"
+
 ppm_status ppmi_scene_check_open(const ppm_scene *scene)
 {
     if (!scene) return PPM_STATUS_INVALID_ARGUMENT;
     if (scene->is_frozen) {
         return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
-                         "the scene is frozen: a render session has been made from it");
+                         "the scene is frozen: a render session of it is alive");
     }
     return PPM_STATUS_OK;
 }
@@ -42,6 +44,7 @@ static void primitive_deinit(ppm_context *context, ppmi_primitive *primitive)
         ppmi_free(context, primitive->uvs[i]);
     ppmi_free(context, primitive->colors);
     ppmi_free(context, primitive->indices);
+    ppmi_free(context, primitive->given_indices);
 }
 
 static void mesh_deinit(ppm_context *context, ppmi_mesh *mesh)
@@ -67,11 +70,12 @@ void ppm_scene_destroy(ppm_scene *scene)
     }
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         mesh_deinit(context, &scene->meshes[i]);
-    for (uint32_t i = 0; i < scene->instance_count; i++) {
-        ppmi_free(context, scene->instances[i].name);
-    }
-    for (uint32_t i = 0; i < scene->camera_count; i++)
+    for (uint32_t i = 0; i < scene->instance_count; i++)
+        ppmi_instance_deinit(context, &scene->instances[i]);
+    for (uint32_t i = 0; i < scene->camera_count; i++) {
         ppmi_free(context, scene->cameras[i].name);
+        ppmi_free(context, scene->cameras[i].motion);
+    }
     for (uint32_t i = 0; i < scene->punctual_count; i++) {
         ppmi_free(context, scene->punctuals[i].name);
     }
@@ -253,6 +257,26 @@ ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *des
     return PPM_STATUS_OK;
 }
 
+/* Made and checked as an added one, which then takes the old one's place. */
+ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,
+                                  const ppm_material_desc *desc)
+{
+    ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (id == 0 || id > scene->material_count) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT, "material %u of %u", id,
+                         scene->material_count);
+    }
+    ppm_material_id added;
+    status = ppm_scene_add_material(scene, desc, &added);
+    if (status != PPM_STATUS_OK) return status;
+    ppmi_material *last = &scene->materials[--scene->material_count];
+    ppmi_free(scene->context, last->name);
+    last->name = scene->materials[id - 1].name;
+    scene->materials[id - 1] = *last;
+    return PPM_STATUS_OK;
+}
+
 /* ---- environment and facts ------------------------------------------------------------------- */
 
 ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc)
@@ -293,134 +317,23 @@ ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
     return PPM_STATUS_OK;
 }
 
-static ppmi_vec3 corner(ppmi_vec3 low, ppmi_vec3 high, uint32_t i)
-{
-    return vec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-}
-
-static ppmi_vec3 vec3_min(ppmi_vec3 a, ppmi_vec3 b)
-{
-    return vec3(ppmi_min(a.x, b.x), ppmi_min(a.y, b.y), ppmi_min(a.z, b.z));
-}
-
-static ppmi_vec3 vec3_max(ppmi_vec3 a, ppmi_vec3 b)
-{
-    return vec3(ppmi_max(a.x, b.x), ppmi_max(a.y, b.y), ppmi_max(a.z, b.z));
-}
-
-/* Meshes whose instance is turned are measured vertex by vertex: the box around a turned box is too
- * large. */
-static void grow_bounds(const ppmi_mesh *mesh, const ppmi_transform *to_world, ppmi_vec3 *low,
-                        ppmi_vec3 *high)
-{
-    const bool is_turned = to_world->x.y != 0.0f || to_world->x.z != 0.0f ||
-                           to_world->y.x != 0.0f || to_world->y.z != 0.0f ||
-                           to_world->z.x != 0.0f || to_world->z.y != 0.0f;
-    if (!is_turned) {
-        for (uint32_t i = 0; i < 8; i++) {
-            const ppmi_vec3 p =
-                ppmi_transform_point(to_world, corner(mesh->bounds_min, mesh->bounds_max, i));
-            *low = vec3_min(*low, p);
-            *high = vec3_max(*high, p);
-        }
-        return;
-    }
-    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        const ppmi_primitive *primitive = &mesh->primitives[i];
-        for (size_t k = 0; k < 3 * (size_t)primitive->triangle_count; k++) {
-            const size_t vertex = primitive->indices[k];
-            const ppmi_vec3 p =
-                ppmi_transform_point(to_world, vec3_load(primitive->positions + 3 * vertex));
-            *low = vec3_min(*low, p);
-            *high = vec3_max(*high, p);
-        }
-    }
-}
-
-uint32_t ppm_scene_instance_count(const ppm_scene *scene)
-{
-    return scene ? scene->instance_count : 0;
-}
-
-const char *ppm_scene_instance_name(const ppm_scene *scene, ppm_instance_id id)
-{
-    if (!scene || id == 0 || id > scene->instance_count) return NULL;
-    return scene->instances[id - 1].name;
-}
-
-ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id, float out_min[3],
-                                     float out_max[3])
-{
-    if (!scene || id == 0 || id > scene->instance_count || !out_min || !out_max) {
-        return PPM_STATUS_INVALID_ARGUMENT;
-    }
-    const ppmi_instance *instance = &scene->instances[id - 1];
-    const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
-    if (mesh->bounds_min.x > mesh->bounds_max.x) return PPM_STATUS_INVALID_ARGUMENT;
-    ppmi_vec3 low = vec3_splat(INFINITY), high = vec3_splat(-INFINITY);
-    grow_bounds(mesh, &instance->to_world, &low, &high);
-    vec3_store(out_min, vec3_add(low, scene->shift));
-    vec3_store(out_max, vec3_add(high, scene->shift));
-    return PPM_STATUS_OK;
-}
-
-bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
-{
-    *out_min = vec3_splat(INFINITY);
-    *out_max = vec3_splat(-INFINITY);
-    for (uint32_t i = 0; i < scene->instance_count; i++) {
-        const ppmi_instance *instance = &scene->instances[i];
-        const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
-        if (mesh->bounds_min.x > mesh->bounds_max.x) continue;
-        grow_bounds(mesh, &instance->to_world, out_min, out_max);
-    }
-    return out_min->x <= out_max->x;
-}
-
-static void move_all(ppm_scene *scene, ppmi_vec3 shift)
-{
-    for (uint32_t i = 0; i < scene->instance_count; i++) {
-        ppmi_transform *to_world = &scene->instances[i].to_world;
-        to_world->origin = vec3_sub(to_world->origin, shift);
-    }
-    for (uint32_t i = 0; i < scene->camera_count; i++) {
-        scene->cameras[i].origin = vec3_sub(scene->cameras[i].origin, shift);
-    }
-    for (uint32_t i = 0; i < scene->punctual_count; i++) {
-        scene->punctuals[i].position = vec3_sub(scene->punctuals[i].position, shift);
-    }
-    scene->shift = shift;
-}
-
-void ppmi_scene_freeze(ppm_scene *scene)
-{
-    const float far_in_sizes = 8.0f;
-    ppmi_vec3 low, high;
-    if (scene->is_frozen) return;
-    scene->is_frozen = true;
-    if (!ppmi_scene_bounds(scene, &low, &high)) return;
-    const ppmi_vec3 center = vec3_scale(vec3_add(low, high), 0.5f);
-    if (vec3_length(center) > far_in_sizes * vec3_length(vec3_sub(high, low))) {
-        move_all(scene, center);
-    }
-}
-
 static bool is_decoration(const ppmi_material *material)
 {
     return material->desc.emission_texture.image > 0 &&
            vec3_max_component(vec3_load(material->desc.emission)) <= 1.0f;
 }
 
-static uint64_t emissive_triangle_count(const ppm_scene *scene, bool with_decoration)
+static uint64_t emissive_element_count(const ppm_scene *scene, bool with_decoration)
 {
     uint64_t count = 0;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
+        if (!ppmi_instance_is_there(&scene->instances[i])) continue;
         const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
         for (uint32_t k = 0; k < mesh->primitive_count; k++) {
             const ppmi_primitive *primitive = &mesh->primitives[k];
             const ppmi_material *material = &scene->materials[primitive->material];
             if (!material->emits || (is_decoration(material) && !with_decoration)) continue;
-            count += primitive->triangle_count;
+            count += primitive->element_count;
         }
     }
     return count;
@@ -432,7 +345,7 @@ bool ppmi_scene_has_light(const ppm_scene *scene)
     for (uint32_t i = 0; i < scene->punctual_count; i++) {
         if (!vec3_is_black(scene->punctuals[i].intensity)) return true;
     }
-    return emissive_triangle_count(scene, false) > 0;
+    return emissive_element_count(scene, false) > 0;
 }
 
 ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
@@ -447,7 +360,7 @@ ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info)
         .materials = scene->material_count,
         .textures = scene->image_count,
         .cameras = scene->camera_count,
-        .lights = scene->punctual_count + emissive_triangle_count(scene, true),
+        .lights = scene->punctual_count + emissive_element_count(scene, true),
         .has_light = ppmi_scene_has_light(scene),
     };
     if (scene->environment.is_set && !vec3_is_black(scene->environment.radiance)) info.lights++;

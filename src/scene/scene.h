@@ -39,8 +39,9 @@ typedef struct ppmi_material {
     ppmi_medium inside;     /* of the solid */
 } ppmi_material;
 
-/* Triangles with one material. positions have 16 bytes of padding behind them, as Embree reads the
- * last vertex 16 bytes at once. */
+/* Triangles, points or lines with one material. positions, normals and tangents hold a block of
+ * vertex_count elements for each motion step. positions have 16 bytes of padding behind them, as
+ * Embree reads the last vertex 16 bytes at once. */
 typedef struct ppmi_primitive {
     uint32_t vertex_count, triangle_count;
     float *positions;
@@ -49,29 +50,59 @@ typedef struct ppmi_primitive {
     float *uvs[PPM_MAX_UV_SETS];
     float *colors; /* or NULL */
     uint32_t *indices;
-    uint32_t material; /* index */
+    uint32_t material;       /* index */
+    uint32_t motion_steps;   /* 1: at rest */
+    int32_t kind;            /* PPM_PRIMITIVE_; triangle_count is 0 for all but triangles */
+    uint32_t element_count;  /* triangles, points or lines, by kind */
+    float radius_m;          /* of points and lines, object space */
+    uint32_t *given_indices; /* of all elements that were given, where some are left out; or NULL */
+    uint32_t given_count;    /* elements */
+    ppmi_vec3 bounds_min, bounds_max; /* object space, of the used vertices at all steps */
 } ppmi_primitive;
 
 typedef struct ppmi_mesh {
     char *name;
     uint32_t primitive_count;
     ppmi_primitive *primitives;
-    ppmi_vec3 bounds_min, bounds_max; /* object space, of the used vertices */
+    ppmi_vec3 bounds_min, bounds_max; /* object space, of the used vertices at all steps */
+    uint64_t shape_version;           /* rises with every change of the vertices */
+    uint64_t topology_version; /* rises where such a change is more than a move of vertices */
 } ppmi_mesh;
 
+/* Motion: transforms holds motion_steps transforms as they are kept, and behind them the same as
+ * they were given (see ppmi_scene_freeze). In between, matrices are interpolated linearly. */
 typedef struct ppmi_instance {
     char *name;
-    uint32_t mesh; /* index */
-    ppmi_transform to_world;
-    ppmi_transform normals; /* takes normals to normals, up to length */
-    float scale;            /* longest column of to_world: how much it enlarges */
-    bool is_mirrored;       /* negative determinant: the winding is reversed */
+    uint32_t mesh;           /* index */
+    ppmi_transform to_world; /* in motion: at the opening of the shutter */
+    ppmi_transform normals;  /* takes normals to normals, up to length */
+    float scale;             /* longest column of to_world at any step: how much it enlarges */
+    bool is_hidden;          /* by the caller */
+    bool is_singular;        /* flat at all steps: there is nothing to see */
+    uint32_t motion_steps;   /* 1: at rest */
+    ppmi_transform *motion;  /* or NULL: at rest */
+    ppmi_vec3 given_origin;  /* of to_world */
 } ppmi_instance;
+
+/* Whether rays can meet the instance. */
+static inline bool ppmi_instance_is_there(const ppmi_instance *instance)
+{
+    return !instance->is_hidden && !instance->is_singular;
+}
+
+/* Where a camera stands and how it is turned: orthonormal. */
+typedef struct ppmi_camera_pose {
+    ppmi_vec3 origin, right, up, forward;
+    ppmi_vec3 given_origin;
+} ppmi_camera_pose;
 
 typedef struct ppmi_camera {
     char *name;
     int32_t kind;
-    ppmi_vec3 origin, right, up, forward; /* orthonormal */
+    ppmi_vec3 origin, right, up, forward; /* orthonormal; in motion: at the opening */
+    ppmi_vec3 given_origin;
+    uint32_t motion_steps;    /* 1: at rest */
+    ppmi_camera_pose *motion; /* at all steps; or NULL: at rest */
     float y_fov_rad;
     float half_width_m, half_height_m;
     float aspect;
@@ -83,6 +114,7 @@ typedef struct ppmi_punctual {
     char *name;
     int32_t kind;
     ppmi_vec3 position, direction; /* direction: where it shines, unit */
+    ppmi_vec3 given_position;
     ppmi_vec3 intensity;
     float cos_inner, cos_outer; /* spot */
     float angular_radius_rad;   /* directional; 0: parallel light */
@@ -108,18 +140,25 @@ struct ppm_scene {
     ppmi_camera *cameras;
     ppmi_punctual *punctuals;
     ppmi_environment environment;
+    bool environment_is_assumed; /* for the time of a session: see ppmi_scene_thaw */
     ppmi_medium fog;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
-    ppmi_vec3 shift; /* what has been subtracted from all positions; see ppmi_scene_freeze */
+    ppmi_vec3 shift;        /* what has been subtracted from all positions; see ppmi_scene_freeze */
+    uint32_t session_count; /* render sessions that keep it frozen */
     bool is_frozen;
 };
 
-/* Ends building. A scene that lies far from the origin for its size (a georeferenced site) is moved
- * there first: floats are finest at zero. What the public API tells of positions stays as it was.
- */
+/* Ends building for the time of a session. A scene that lies far from the origin for its size (a
+ * georeferenced site) is moved there first: floats are finest at zero. What the public API tells of
+ * positions stays as it was. */
 void ppmi_scene_freeze(ppm_scene *scene);
 
-/* World bounds of all instances, in the positions as they are kept; false when there is nothing. */
+/* The end of a session: once for each freeze. The last one opens the scene for changes: all is
+ * where it was given, to the bit, and an assumed environment is gone. */
+void ppmi_scene_thaw(ppm_scene *scene);
+
+/* World bounds of all instances that are there, over the whole shutter, in the positions as they
+ * are kept; false when there is nothing. */
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
 /* Whether anything shines that is meant to light the scene: an environment, a punctual light, or an
@@ -132,7 +171,7 @@ bool ppmi_scene_has_light(const ppm_scene *scene);
  * them. */
 ppm_status ppmi_scene_take_image(ppm_scene *scene, const ppmi_image *image, ppm_image_id *out_id);
 
-/* WRONG_STATE once frozen, else OK. */
+/* WRONG_STATE while frozen, else OK. */
 ppm_status ppmi_scene_check_open(const ppm_scene *scene);
 
 /* Room for one more element in an array that doubles; the new element is zeroed and NOT counted

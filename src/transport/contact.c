@@ -57,30 +57,51 @@ static bool push(ppm_context *context, box_list *list, ppmi_box box)
     return true;
 }
 
+/* The transform of an instance at a motion step. */
+static const ppmi_transform *transform_at(const ppmi_instance *instance, uint32_t step)
+{
+    return instance->motion ? &instance->motion[step] : &instance->to_world;
+}
+
+/* Over the whole shutter: within the hull of all steps of the vertices under all of the instance.
+ */
 static ppmi_box triangle_box(const ppmi_instance *instance, const ppmi_primitive *primitive,
                              uint32_t triangle)
 {
     ppmi_box box = empty_box;
-    for (uint32_t k = 0; k < 3; k++) {
-        const size_t vertex = primitive->indices[3 * (size_t)triangle + k];
-        grow(&box, ppmi_transform_point(&instance->to_world,
-                                        vec3_load(primitive->positions + 3 * vertex)));
+    for (uint32_t pose = 0; pose < instance->motion_steps; pose++) {
+        const ppmi_transform *to_world = transform_at(instance, pose);
+        for (uint32_t step = 0; step < primitive->motion_steps; step++) {
+            const float *positions =
+                primitive->positions + 3 * (size_t)step * primitive->vertex_count;
+            for (uint32_t k = 0; k < 3; k++) {
+                const size_t vertex = primitive->indices[3 * (size_t)triangle + k];
+                grow(&box, ppmi_transform_point(to_world, vec3_load(positions + 3 * vertex)));
+            }
+        }
     }
     return box;
+}
+
+static void grow_by_corners(ppmi_box *box, const ppmi_instance *instance, ppmi_vec3 low,
+                            ppmi_vec3 high)
+{
+    for (uint32_t pose = 0; pose < instance->motion_steps; pose++) {
+        for (uint32_t i = 0; i < 8; i++) {
+            const ppmi_vec3 corner =
+                vec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+            grow(box, ppmi_transform_point(transform_at(instance, pose), corner));
+        }
+    }
 }
 
 /* Of the whole mesh, by its corners: many instances may share a large one. */
 static ppmi_box instance_box(const ppm_scene *scene, const ppmi_instance *instance)
 {
     const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
-    const ppmi_vec3 low = mesh->bounds_min, high = mesh->bounds_max;
     ppmi_box box = empty_box;
-    if (low.x > high.x) return box;
-    for (uint32_t i = 0; i < 8; i++) {
-        const ppmi_vec3 corner =
-            vec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-        grow(&box, ppmi_transform_point(&instance->to_world, corner));
-    }
+    if (mesh->bounds_min.x > mesh->bounds_max.x || !ppmi_instance_is_there(instance)) return box;
+    grow_by_corners(&box, instance, mesh->bounds_min, mesh->bounds_max);
     return box;
 }
 
@@ -166,7 +187,14 @@ static bool add_near(contact_build *build, uint32_t instance, uint32_t primitive
                      const ppmi_box *solid)
 {
     const ppmi_primitive *primitive = &mesh_of(build->scene, instance)->primitives[primitive_index];
-    if (!spend(build, primitive->triangle_count)) return true;
+    if (!spend(build, primitive->element_count)) return true;
+    if (primitive->kind != PPM_PRIMITIVE_TRIANGLES) { /* a cloud of balls is one box */
+        ppmi_box box = empty_box;
+        if (primitive->element_count == 0) return true;
+        grow_by_corners(&box, &build->scene->instances[instance], primitive->bounds_min,
+                        primitive->bounds_max);
+        return !overlap(&box, solid) || push(build->context, &build->near, box);
+    }
     for (uint32_t i = 0; i < primitive->triangle_count; i++) {
         const ppmi_box box = triangle_box(&build->scene->instances[instance], primitive, i);
         if (overlap(&box, solid) && !push(build->context, &build->near, box)) return false;
@@ -212,7 +240,9 @@ static bool add_solids(contact_build *build)
         const ppmi_mesh *mesh = mesh_of(build->scene, i);
         for (uint32_t k = 0; k < mesh->primitive_count; k++, slot++) {
             const ppmi_material *material = &build->scene->materials[mesh->primitives[k].material];
-            if (material->is_solid_glass && !add_solid(build, slot, i, k)) return false;
+            const bool is_solid =
+                material->is_solid_glass && ppmi_instance_is_there(&build->scene->instances[i]);
+            if (is_solid && !add_solid(build, slot, i, k)) return false;
         }
     }
     return true;
