@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_placement.h"
+#include "gltf/gltf_pose.h"
 #include "gltf/gltf_reader.h"
 
 #define PI 3.14159265358979323846
@@ -67,11 +69,12 @@ static const char *camera_fault(const ppmi_gltf_camera *camera)
     return camera->aspect < 0.0 ? "aspectRatio must be above 0" : NULL;
 }
 
-ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const double world[16])
+ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
+    const uint32_t steps = reader->pose->node_steps[node];
     char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
-    ppm_camera_id id;
+    float motion[16 * PPM_MAX_MOTION_STEPS];
     ppmi_gltf_place(place, "nodes[%d].camera", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_CAMERAS, from->camera, place)) return PPM_STATUS_OK;
     const ppmi_gltf_camera *camera = &reader->document->cameras[from->camera];
@@ -84,12 +87,20 @@ ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const do
                             .half_height_m = (float)fabs(camera->y_mag),
                             .aspect = (float)camera->aspect};
     const char *fault = camera_fault(camera);
-    if (!fault) fault = rigid_transform(world, true, desc.transform);
+    for (uint32_t i = 0; i < steps && !fault; ++i) {
+        fault = rigid_transform(ppmi_gltf_pose_world(reader->pose, node, i, steps), true,
+                                motion + 16 * (size_t)i);
+    }
     if (fault) {
         ppmi_gltf_warn(reader, place, "left out: cameras[%d]: %s", (int)from->camera, fault);
         return PPM_STATUS_OK;
     }
-    return ppm_scene_add_camera(reader->scene, &desc, &id);
+    memcpy(desc.transform, motion, sizeof desc.transform);
+    if (steps > 1) {
+        desc.motion_steps = steps;
+        desc.motion = motion;
+    }
+    return ppmi_gltf_put_camera(reader, node, &desc);
 }
 
 int32_t ppmi_gltf_light_units(const ppmi_gltf_reader *reader)
@@ -139,11 +150,11 @@ ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const dou
                                     [PPMI_GLTF_LIGHT_DIRECTIONAL] = PPM_LIGHT_DIRECTIONAL};
     const ppmi_gltf_node *from = &reader->document->nodes[node];
     char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
-    ppm_light_id id;
     ppmi_gltf_place(place, "nodes[%d].extensions.KHR_lights_punctual.light", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_LIGHTS, from->light, place)) return PPM_STATUS_OK;
     const ppmi_gltf_light *light = &reader->document->lights[from->light];
-    const double factor = light->intensity * unit_factor(reader, light->kind);
+    const double seen = reader->pose->is_visible[node] ? 1.0 : 0.0;
+    const double factor = seen * light->intensity * unit_factor(reader, light->kind);
     ppm_light_desc desc = {.size = sizeof desc,
                            .name = choose_name(light->name, from->name, name, sizeof name),
                            .kind = kinds[light->kind],
@@ -162,5 +173,5 @@ ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const dou
         return PPM_STATUS_OK;
     }
     reader->tally.punctual_lights++;
-    return ppm_scene_add_light(reader->scene, &desc, &id);
+    return ppmi_gltf_put_light(reader, node, &desc);
 }

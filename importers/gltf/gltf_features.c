@@ -31,8 +31,7 @@ static const struct {
 } rows[FEATURE_COUNT] = {
     [ALPHA_BLEND] = {"alpha BLEND", PPM_FEATURE_HONOURED, "materials", ""},
     [ALPHA_MASK] = {"alpha MASK", PPM_FEATURE_HONOURED, "materials", ""},
-    [ANIMATIONS] = {"animations", PPM_FEATURE_IGNORED, "animations",
-                    ": the file's static pose is shown"},
+    [ANIMATIONS] = {"animations", PPM_FEATURE_HONOURED, "animations", ""},
     [LIGHT_RANGES] = {"light ranges", PPM_FEATURE_IGNORED, "lights",
                       ": light falls off with the square of the distance without end"},
     [LINES] = {"lines", PPM_FEATURE_IGNORED, "primitives", ": left out"},

@@ -3,8 +3,11 @@
 
 #include <string.h>
 
+#include "gltf/gltf_animation.h"
 #include "gltf/gltf_asset.h"
 #include "gltf/gltf_extensions.h"
+#include "gltf/gltf_placement.h"
+#include "gltf/gltf_pose.h"
 #include "gltf/gltf_reader.h"
 
 /* The tables that remember what has been added already. */
@@ -21,7 +24,9 @@ static ppm_status allocate_tables(ppmi_gltf_reader *r)
     r->meshes = ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_MESHES].count + 1, sizeof *r->meshes);
     r->empty_meshes =
         ppmi_alloc_zeroed(r->context, lists[PPMI_GLTF_MESHES].count + 1, sizeof *r->empty_meshes);
-    if (!r->buffers || !r->images || !r->materials || !r->meshes || !r->empty_meshes) {
+    r->animations = ppmi_alloc_zeroed(r->context, 1, sizeof *r->animations);
+    if (!r->animations || !r->buffers || !r->images || !r->materials || !r->meshes ||
+        !r->empty_meshes) {
         return ppmi_fail(r->context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", r->path);
     }
     return PPM_STATUS_OK;
@@ -145,6 +150,9 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_free(r->context, r->meshes);
     ppmi_free(r->context, r->empty_meshes);
     ppmi_gltf_report_deinit(r->context, &r->report);
+    ppmi_gltf_animations_deinit(r->context, r->animations);
+    ppmi_gltf_pose_destroy(r->context, r->pose);
+    ppmi_gltf_placements_destroy(r->context, r->placements);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);
@@ -193,9 +201,7 @@ ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
 
 ppm_status ppmi_gltf_asset_set_pose(ppmi_gltf_asset *asset, const ppm_pose *pose)
 {
-    (void)asset;
-    (void)pose;
-    return PPM_STATUS_OK;
+    return ppmi_gltf_pose_nodes(&asset->reader, pose);
 }
 
 const ppmi_gltf_reader *ppmi_gltf_asset_reader(const ppmi_gltf_asset *asset)

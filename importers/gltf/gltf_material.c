@@ -179,7 +179,8 @@ static void convert(conversion *c)
 
 /* ---- use ------------------------------------------------------------------------------------- */
 
-static ppm_status add_material(ppmi_gltf_reader *reader, int32_t index, ppm_material_id *out_id)
+/* Adds the material, or changes the one that *id is. */
+static ppm_status put_material(ppmi_gltf_reader *reader, int32_t index, ppm_material_id *id)
 {
     const ppmi_gltf_material *from = &reader->document->materials[index];
     char name[PPMI_GLTF_PLACE];
@@ -189,7 +190,13 @@ static ppm_status add_material(ppmi_gltf_reader *reader, int32_t index, ppm_mate
     c.desc.name = ppmi_gltf_printable(from->name, strlen(from->name), name, sizeof name);
     convert(&c);
     if (c.status != PPM_STATUS_OK) return c.status;
-    return ppm_scene_add_material(reader->scene, &c.desc, out_id);
+    if (*id != 0) return ppm_scene_set_material(reader->scene, *id, &c.desc);
+    return ppm_scene_add_material(reader->scene, &c.desc, id);
+}
+
+ppm_status ppmi_gltf_update_material(ppmi_gltf_reader *reader, int32_t material)
+{
+    return put_material(reader, material, &reader->materials[material]);
 }
 
 /* The specification's material for primitives that name none: white metal, rough. */
@@ -217,7 +224,7 @@ ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, co
         return use_default(reader, out_id);
     }
     if (reader->materials[material] == 0) {
-        status = add_material(reader, material, &reader->materials[material]);
+        status = put_material(reader, material, &reader->materials[material]);
     }
     *out_id = reader->materials[material];
     return status;

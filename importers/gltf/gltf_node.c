@@ -1,111 +1,52 @@
-/* Nodes: the scene's hierarchy, walked without recursion, and what hangs on it. Transforms are
- * composed in double precision. */
+/* Nodes: the scene's hierarchy, walked without recursion, and what hangs on it. */
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_animation.h"
+#include "gltf/gltf_choice.h"
+#include "gltf/gltf_matrix.h"
+#include "gltf/gltf_placement.h"
+#include "gltf/gltf_pose.h"
 #include "gltf/gltf_reader.h"
 
 /* The walk: parents come before their children. */
 typedef struct walk {
-    int32_t *stack;       /* nodes to visit; each is pushed once at most */
-    int32_t *parents;     /* -1: a root; -2: not reached */
-    double (*worlds)[16]; /* local to world, of visited nodes */
+    int32_t *stack;   /* nodes to visit; each is pushed once at most */
+    int32_t *parents; /* -1: a root; -2: not reached */
     size_t depth;
 } walk;
 
 enum { NO_PARENT = -1, NOT_REACHED = -2 };
 
-/* ---- matrices, column-major ------------------------------------------------------------------ */
-
-static void multiply(const double a[16], const double b[16], double out[16])
-{
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; ++k) {
-                sum += a[4 * k + row] * b[4 * column + k];
-            }
-            out[4 * column + row] = sum;
-        }
-    }
-}
-
-/* translation * rotation * scale. A quaternion need not have unit length; zero is no rotation. */
-static void compose(const double t[3], const double r[4], const double s[3], double out[16])
-{
-    const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-    const bool is_rotation = length > 0.0 && isfinite(length);
-    const double x = is_rotation ? r[0] / length : 0.0, y = is_rotation ? r[1] / length : 0.0;
-    const double z = is_rotation ? r[2] / length : 0.0, w = is_rotation ? r[3] / length : 1.0;
-    const double m[16] = {s[0] * (1.0 - 2.0 * (y * y + z * z)),
-                          s[0] * 2.0 * (x * y + z * w),
-                          s[0] * 2.0 * (x * z - y * w),
-                          0.0,
-                          s[1] * 2.0 * (x * y - z * w),
-                          s[1] * (1.0 - 2.0 * (x * x + z * z)),
-                          s[1] * 2.0 * (y * z + x * w),
-                          0.0,
-                          s[2] * 2.0 * (x * z + y * w),
-                          s[2] * 2.0 * (y * z - x * w),
-                          s[2] * (1.0 - 2.0 * (x * x + y * y)),
-                          0.0,
-                          t[0],
-                          t[1],
-                          t[2],
-                          1.0};
-    memcpy(out, m, sizeof m);
-}
-
-static ppm_status local_matrix(ppmi_gltf_reader *reader, int32_t index, double out[16])
-{
-    const ppmi_gltf_node *node = &reader->document->nodes[index];
-    char place[PPMI_GLTF_PLACE];
-    if (!node->has_matrix) {
-        compose(node->translation, node->rotation, node->scale, out);
-        return PPM_STATUS_OK;
-    }
-    const double *m = node->matrix;
-    const double error = fabs(m[3]) + fabs(m[7]) + fabs(m[11]) + fabs(m[15] - 1.0);
-    if (error > 1e-4) { /* what single precision makes of 0 0 0 1 after a few products is less */
-        ppmi_gltf_place(place, "nodes[%d].matrix", (int)index);
-        return ppmi_gltf_invalid(reader, place, "not affine: its last row is not 0 0 0 1");
-    }
-    memcpy(out, m, sizeof node->matrix);
-    out[3] = out[7] = out[11] = 0.0;
-    out[15] = 1.0;
-    return PPM_STATUS_OK;
-}
-
-/* False when a value is too large for a float. */
-static bool to_floats(const double m[16], float out[16])
-{
-    for (int i = 0; i < 16; ++i) {
-        if (!(fabs(m[i]) < 1e30)) return false;
-        out[i] = (float)m[i];
-    }
-    return true;
-}
-
 /* ---- instances ------------------------------------------------------------------------------- */
 
+/* Instance number ordinal of a node, at local inside of it (NULL: at the node itself). */
 static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id mesh,
-                               const double world[16])
+                               size_t ordinal, const double *local)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     const char *node_name = node->name[0] ? node->name : reader->document->meshes[node->mesh].name;
+    const uint32_t steps = reader->pose->node_steps[index];
     char name[PPMI_GLTF_PLACE], place[PPMI_GLTF_PLACE];
-    ppm_instance_id id;
     ppm_instance_desc desc = {
         .size = sizeof desc,
         .name = ppmi_gltf_printable(node_name, strlen(node_name), name, sizeof name),
         .mesh = mesh};
-    if (!to_floats(world, desc.transform)) {
+    float motion[16 * PPM_MAX_MOTION_STEPS];
+    for (uint32_t i = 0; i < steps; ++i) {
+        const double *world = ppmi_gltf_pose_world(reader->pose, index, i, steps);
+        double product[16];
+        if (local) ppmi_gltf_matrix_multiply(world, local, product);
+        if (ppmi_gltf_matrix_to_floats(local ? product : world, motion + 16 * (size_t)i)) continue;
         ppmi_gltf_place(place, "nodes[%d]", (int)index);
         return ppmi_gltf_invalid(reader, place, "its transform in the world is too large");
     }
-    const ppm_status status = ppm_scene_add_instance(reader->scene, &desc, &id);
-    if (status == PPM_STATUS_OK && id != 0) reader->tally.instances++;
-    return status;
+    memcpy(desc.transform, motion, sizeof desc.transform);
+    if (steps > 1) {
+        desc.motion_steps = steps;
+        desc.motion = motion;
+    }
+    return ppmi_gltf_put_instance(reader, index, ordinal, reader->pose->is_visible[index], &desc);
 }
 
 /* One attribute of EXT_mesh_gpu_instancing; *out stays NULL when it is absent. */
@@ -139,8 +80,7 @@ static void widen(const float *from, size_t count, double *out)
 }
 
 /* EXT_mesh_gpu_instancing: each instance has a transform of its own inside of the node's. */
-static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id mesh,
-                                    const double world[16])
+static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id mesh)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     char place[PPMI_GLTF_PLACE];
@@ -157,13 +97,12 @@ static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm
     }
     for (size_t i = 0; i < count && status == PPM_STATUS_OK; ++i) {
         double t[3] = {0.0, 0.0, 0.0}, r[4] = {0.0, 0.0, 0.0, 1.0}, s[3] = {1.0, 1.0, 1.0};
-        double local[16], product[16];
+        double local[16];
         if (translations) widen(translations + 3 * i, 3, t);
         if (rotations) widen(rotations + 4 * i, 4, r);
         if (scales) widen(scales + 3 * i, 3, s);
-        compose(t, r, s, local);
-        multiply(world, local, product);
-        status = add_instance(reader, index, mesh, product);
+        ppmi_gltf_matrix_compose(t, r, s, local);
+        status = add_instance(reader, index, mesh, i, local);
     }
     ppmi_free(reader->context, translations);
     ppmi_free(reader->context, rotations);
@@ -171,29 +110,45 @@ static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm
     return status;
 }
 
-static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index, const double world[16])
+/* What will never be seen is not even read. */
+static bool is_never_seen(const ppmi_gltf_reader *reader, int32_t index)
+{
+    return !reader->pose->is_visible[index] && reader->document->animation_count == 0;
+}
+
+static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     char place[PPMI_GLTF_PLACE];
     ppm_mesh_id mesh;
+    if (is_never_seen(reader, index)) return PPM_STATUS_OK;
+    if (reader->is_posed_again && !reader->pose->has_moved[index]) return PPM_STATUS_OK;
     ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
     const ppm_status status = ppmi_gltf_use_mesh(reader, node->mesh, place, &mesh);
     if (status != PPM_STATUS_OK || mesh == 0) return status;
-    if (node->is_instanced) return add_gpu_instances(reader, index, mesh, world);
-    return add_instance(reader, index, mesh, world);
+    if (node->is_instanced) return add_gpu_instances(reader, index, mesh);
+    return add_instance(reader, index, mesh, 0, NULL);
 }
 
-/* What one node carries. */
-static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index, const double world[16])
+static bool is_due(const ppmi_gltf_reader *reader, int32_t node, int32_t list, int32_t index)
+{
+    return !reader->is_posed_again || reader->pose->has_moved[node] ||
+           ppmi_gltf_animations_change(reader, list, index);
+}
+
+/* What one node carries: added, or moved to where it is now. */
+static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     ppm_status status = PPM_STATUS_OK;
-    if (node->mesh >= 0) status = emit_mesh(reader, index, world);
-    if (status == PPM_STATUS_OK && node->camera >= 0) {
-        status = ppmi_gltf_add_camera(reader, index, world);
+    if (node->mesh >= 0) status = emit_mesh(reader, index);
+    if (status == PPM_STATUS_OK && node->camera >= 0 &&
+        is_due(reader, index, PPMI_GLTF_CAMERAS, node->camera)) {
+        status = ppmi_gltf_add_camera(reader, index);
     }
-    if (status == PPM_STATUS_OK && node->light >= 0) {
-        status = ppmi_gltf_add_light(reader, index, world);
+    if (status == PPM_STATUS_OK && node->light >= 0 && !is_never_seen(reader, index) &&
+        is_due(reader, index, PPMI_GLTF_LIGHTS, node->light)) {
+        status = ppmi_gltf_add_light(reader, index, reader->pose->middle[index]);
     }
     return status;
 }
@@ -227,20 +182,26 @@ static ppm_status push(ppmi_gltf_reader *reader, walk *w, int32_t node, int32_t 
     return PPM_STATUS_OK;
 }
 
+static ppm_status check_matrix(ppmi_gltf_reader *reader, int32_t index)
+{
+    const ppmi_gltf_node *node = &reader->document->nodes[index];
+    const double *m = node->matrix;
+    char place[PPMI_GLTF_PLACE];
+    if (!node->has_matrix) return PPM_STATUS_OK;
+    /* what single precision makes of 0 0 0 1 after a few products is less */
+    const double error = fabs(m[3]) + fabs(m[7]) + fabs(m[11]) + fabs(m[15] - 1.0);
+    if (error <= 1e-4) return PPM_STATUS_OK;
+    ppmi_gltf_place(place, "nodes[%d].matrix", (int)index);
+    return ppmi_gltf_invalid(reader, place, "not affine: its last row is not 0 0 0 1");
+}
+
 static ppm_status visit(ppmi_gltf_reader *reader, walk *w)
 {
     const int32_t index = w->stack[--w->depth];
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     char place[PPMI_GLTF_PLACE];
-    double local[16];
-    ppm_status status = local_matrix(reader, index, local);
-    if (status != PPM_STATUS_OK) return status;
-    if (w->parents[index] >= 0) {
-        multiply(w->worlds[w->parents[index]], local, w->worlds[index]);
-    } else {
-        memcpy(w->worlds[index], local, sizeof local);
-    }
-    status = emit_node(reader, index, w->worlds[index]);
+    ppm_status status = check_matrix(reader, index);
+    reader->pose->order[reader->pose->order_count++] = index;
     for (uint32_t i = node->child_count; i > 0 && status == PPM_STATUS_OK; --i) {
         ppmi_gltf_place(place, "nodes[%d].children[%u]", (int)index, (unsigned)(i - 1));
         status = push(reader, w, node->children[i - 1], index, place);
@@ -283,12 +244,32 @@ static ppm_status walk_all(ppmi_gltf_reader *reader, walk *w)
     return status;
 }
 
+/* The scene that is asked for, or else the file's default one, or else the first. */
+static ppm_status choose_scene(ppmi_gltf_reader *reader, int32_t *out_index)
+{
+    const ppmi_gltf_document *document = reader->document;
+    *out_index = document->default_scene < 0 ? 0 : document->default_scene;
+    if (!reader->options->scene) return PPM_STATUS_OK;
+    const char **names = ppmi_alloc(reader->context, document->scene_count + 1, sizeof *names);
+    if (!names) return ppmi_gltf_out_of_memory(reader, "scenes");
+    for (size_t i = 0; i < document->scene_count; ++i) {
+        names[i] = document->scenes[i].name;
+    }
+    const ppm_status status = ppmi_gltf_choose(reader, "scene", reader->options->scene, names,
+                                               document->scene_count, true, out_index);
+    ppmi_free(reader->context, names);
+    return status;
+}
+
 static ppm_status walk_scene(ppmi_gltf_reader *reader, walk *w)
 {
     const ppmi_gltf_document *document = reader->document;
-    const int32_t index = document->default_scene < 0 ? 0 : document->default_scene;
+    int32_t index;
     char place[PPMI_GLTF_PLACE];
-    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_SCENES, index, "scene");
+    ppm_status status = choose_scene(reader, &index);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_gltf_require(reader, PPMI_GLTF_SCENES, index, "scene");
+    }
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_scene *scene = &document->scenes[index];
     for (uint32_t i = 0; i < scene->node_count && status == PPM_STATUS_OK; ++i) {
@@ -298,26 +279,47 @@ static ppm_status walk_scene(ppmi_gltf_reader *reader, walk *w)
     return status;
 }
 
-ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader)
+static ppm_status walk_nodes(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
-    const size_t count = document->node_count;
-    const bool has_scene = document->scene_count > 0 || document->default_scene >= 0;
-    if (count == 0 && !has_scene) return PPM_STATUS_OK;
-    /* one more, so that no nodes at all is no case of its own */
-    walk w = {.stack = ppmi_alloc(reader->context, count + 1, sizeof *w.stack),
-              .parents = ppmi_alloc(reader->context, count + 1, sizeof *w.parents),
-              .worlds = ppmi_alloc(reader->context, count + 1, sizeof *w.worlds)};
-    ppm_status status = PPM_STATUS_OK;
-    if (!w.stack || !w.parents || !w.worlds) status = ppmi_gltf_out_of_memory(reader, "nodes");
-    for (size_t i = 0; status == PPM_STATUS_OK && i < count; ++i) {
-        w.parents[i] = NOT_REACHED;
-    }
-    if (status == PPM_STATUS_OK) {
-        status = has_scene ? walk_scene(reader, &w) : walk_all(reader, &w);
-    }
+    const bool has_scene =
+        document->scene_count > 0 || document->default_scene >= 0 || reader->options->scene;
+    if (document->node_count == 0 && !has_scene) return PPM_STATUS_OK;
+    walk w = {.stack = ppmi_alloc(reader->context, document->node_count + 1, sizeof *w.stack),
+              .parents = reader->pose->parents};
+    if (!w.stack) return ppmi_gltf_out_of_memory(reader, "nodes");
+    const ppm_status status = has_scene ? walk_scene(reader, &w) : walk_all(reader, &w);
     ppmi_free(reader->context, w.stack);
-    ppmi_free(reader->context, w.parents);
-    ppmi_free(reader->context, w.worlds);
     return status;
+}
+
+static ppm_status emit_nodes(ppmi_gltf_reader *reader)
+{
+    ppm_status status = PPM_STATUS_OK;
+    for (size_t i = 0; i < reader->pose->order_count && status == PPM_STATUS_OK; ++i) {
+        status = emit_node(reader, reader->pose->order[i]);
+    }
+    return status;
+}
+
+ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader)
+{
+    ppm_status status = ppmi_gltf_pose_create(reader);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_placements_create(reader);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_animations_check_name(reader);
+    if (status == PPM_STATUS_OK) status = walk_nodes(reader);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_pose_take(reader, &reader->options->pose);
+    return status == PPM_STATUS_OK ? emit_nodes(reader) : status;
+}
+
+ppm_status ppmi_gltf_pose_nodes(ppmi_gltf_reader *reader, const ppm_pose *when)
+{
+    reader->is_posed_again = true;
+    ppm_status status = ppmi_gltf_pose_take(reader, when);
+    for (size_t i = 0; i < reader->document->material_count && status == PPM_STATUS_OK; ++i) {
+        if (reader->materials[i] == 0) continue;
+        if (!ppmi_gltf_animations_change(reader, PPMI_GLTF_MATERIALS, (int32_t)i)) continue;
+        status = ppmi_gltf_update_material(reader, (int32_t)i);
+    }
+    return status == PPM_STATUS_OK ? emit_nodes(reader) : status;
 }

@@ -74,6 +74,7 @@ void ppmi_gltf_warn(ppmi_gltf_reader *reader, const char *place, const char *for
 {
     char text[2 * PPMI_GLTF_PLACE];
     va_list arguments;
+    if (reader->is_posed_again) return;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);

@@ -59,6 +59,11 @@ struct ppmi_gltf_reader {
     bool from_blender;                /* asset.generator is Khronos' Blender exporter */
     ppmi_gltf_tally tally;
     ppmi_gltf_report report;
+
+    struct ppmi_gltf_animations *animations;
+    struct ppmi_gltf_pose *pose;             /* made by the import */
+    struct ppmi_gltf_placements *placements; /* made by the import */
+    bool is_posed_again; /* what has been told at the import is not told again */
 };
 
 /* ---- gltf_file.c: files, GLB, buffers -------------------------------------------------------- */
@@ -121,8 +126,10 @@ ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t accessor, co
 
 /* ---- the passes ------------------------------------------------------------------------------ */
 
-/* gltf_node.c: walks the scene and adds instances, cameras and lights. */
+/* gltf_node.c: walks the scene and adds instances, cameras and lights, in the options' pose. */
 ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader);
+/* Moves them to another time, and materials that change with them. */
+ppm_status ppmi_gltf_pose_nodes(ppmi_gltf_reader *reader, const ppm_pose *when);
 
 /* gltf_mesh.c: the mesh's id, adding it at its first use; 0 when nothing in it can be drawn. */
 ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char *place,
@@ -131,14 +138,17 @@ ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char
 /* gltf_material.c: the material's id, adding it at its first use; -1 is the default material. */
 ppm_status ppmi_gltf_use_material(ppmi_gltf_reader *reader, int32_t material, const char *place,
                                   ppm_material_id *out_id);
+/* Hands the values that a material has now to the scene, which has the material already. */
+ppm_status ppmi_gltf_update_material(ppmi_gltf_reader *reader, int32_t material);
 
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */
 ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,
                                  int32_t role, const char *place, ppm_texture *out_texture);
 
-/* gltf_camera_light.c: adds the camera or light of a node. world is its column-major transform. */
-ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
+/* gltf_camera_light.c: adds the camera or light of a node, or changes what has been added. world is
+ * its column-major transform. */
+ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node);
 ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
 
 /* The light units in effect, PPM_LIGHT_UNITS_ without AUTO. */

@@ -206,6 +206,15 @@ typedef struct ppmi_gltf_document {
 /* file is for messages. Returns OK, INPUT_INVALID with tinygltf's text, OUT_OF_MEMORY. */
 ppm_status ppmi_gltf_document_create(ppm_context *context, const char *file, const char *text,
                                      size_t length, const ppmi_gltf_document **out_document);
+/* What animations write: the document's own values. */
+typedef struct ppmi_gltf_editable {
+    ppmi_gltf_node *nodes;
+    ppmi_gltf_material *materials;
+    ppmi_gltf_camera *cameras;
+    ppmi_gltf_light *lights;
+} ppmi_gltf_editable;
+ppmi_gltf_editable ppmi_gltf_document_edit(const ppmi_gltf_document *document);
+
 /* NULL is fine. */
 void ppmi_gltf_document_destroy(const ppmi_gltf_document *document);
 

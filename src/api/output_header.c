@@ -145,5 +145,5 @@ void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,
     add(header, "ppm:frame", PPMI_ATTRIBUTE_INT)->integer = frame;
     add_floats(header, "ppm:time", &header->time_s, 1);
     to_rational(frames_per_second,
-                add(header, "FramesPerSecond", PPMI_ATTRIBUTE_RATIONAL)->rational);
+                add(header, "framesPerSecond", PPMI_ATTRIBUTE_RATIONAL)->rational);
 }

@@ -17,6 +17,7 @@ void console_init(cli_console *console, int32_t verbosity)
     console->verbosity = verbosity;
     console->is_terminal = isatty(STDERR_FILENO) && kind && strcmp(kind, "dumb") != 0;
     console->line_is_shown = false;
+    console->is_repeating = false;
 }
 
 static ppm_log_level loudest_shown(const cli_console *console)
@@ -40,7 +41,8 @@ static const char *prefix(ppm_log_level level)
 void console_log(void *user, ppm_log_level level, const char *message)
 {
     cli_console *const console = user;
-    if (level > loudest_shown(console)) return;
+    const bool is_note = level == PPM_LOG_INFO && console->verbosity != VERBOSITY_VERBOSE;
+    if (level > loudest_shown(console) || (is_note && console->is_repeating)) return;
     console_clear_line(console);
     fprintf(stderr, "%s%s\n", prefix(level), message);
 }

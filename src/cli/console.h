@@ -11,6 +11,7 @@ typedef struct cli_console {
     int32_t verbosity;  /* VERBOSITY_ */
     bool is_terminal;   /* standard error is a terminal that can rewrite a line */
     bool line_is_shown; /* a progress line stands there now */
+    bool is_repeating;  /* the library says again what it has said: its notes are left out */
 } cli_console;
 
 void console_init(cli_console *console, int32_t verbosity);

@@ -74,12 +74,13 @@ static int render_and_record(const cli_sequence *s, const picture_task *task, ru
         state->rendered++;
     }
     state->is_interrupted = done.is_stopped;
-    if (task->label) {
+    if (task->label && state->left > 0) {
         signals_leave_picture();
     } else {
         signals_leave_render();
     }
     ppm_render_destroy(render);
+    s->console->is_repeating = true;
     return result;
 }
 
@@ -144,8 +145,9 @@ static int take_cameras(const cli_sequence *s, run_state *state, cli_picture *fi
     if (!s->options->all_cameras) return EXIT_DONE;
     int result = input_set_moment(s->input, s->color, s->context, s->options, first);
     if (result == EXIT_DONE) result = pictures_take_cameras(s->pictures, s->input->scene);
-    if (result == EXIT_DONE) state->left = count_left(s, first);
-    return result;
+    if (result != EXIT_DONE) return result;
+    state->left = count_left(s, first);
+    return EXIT_DONE;
 }
 
 static int say_how_it_ended(const cli_sequence *s, const run_state *state, int result)
@@ -165,16 +167,32 @@ static int say_how_it_ended(const cli_sequence *s, const run_state *state, int r
     return result;
 }
 
+/* An open shutter blurs what moves; without a frame nothing does. */
+static void say_idle_shutter(const cli_sequence *s)
+{
+    const shutter_times *const shutter = &s->options->shutter;
+    if (s->options->frames.is_given || !(shutter->close > shutter->open)) return;
+    console_message(s->console, PPM_LOG_INFO,
+                    "--shutter blurs what moves: that needs --frame or --frames");
+}
+
+static int open_and_render(const cli_sequence *s, cli_picture *first, run_state *state)
+{
+    int result = input_open(s->input, s->console, s->context, s->options, first);
+    if (result != EXIT_DONE) return result;
+    input_say_animations(s->input, s->console, s->options);
+    say_idle_shutter(s);
+    result = take_cameras(s, state, first);
+    return result == EXIT_DONE ? render_all(s, state) : result;
+}
+
 int sequence_run(const cli_sequence *s)
 {
     run_state state = {0};
     cli_picture first;
     state.left = count_left(s, &first);
-    if (state.left == 0) return render_all(s, &state); /* tells what is there */
-    int result = input_open(s->input, s->console, s->context, s->options, &first);
-    if (result != EXIT_DONE) return result;
-    input_say_animations(s->input, s->console, s->options);
-    result = take_cameras(s, &state, &first);
-    if (result == EXIT_DONE) result = render_all(s, &state);
+    const bool is_known = !s->options->all_cameras; /* else the names of cameras are in the file */
+    const int result =
+        state.left == 0 && is_known ? render_all(s, &state) : open_and_render(s, &first, &state);
     return say_how_it_ended(s, &state, result);
 }

@@ -34,7 +34,7 @@ static void translation_rotation_and_scale_apply_in_that_order(void **state)
     assert_place(f, 0, vec3(1, 0, 0), vec3(10, 22, 30));
     assert_place(f, 0, vec3(0, 1, 0), vec3(7, 20, 30));
     assert_place(f, 0, vec3(0, 0, 1), vec3(10, 20, 26));
-    assert_true(f->scene->instances[0].is_mirrored);
+    assert_true(ppmi_transform_determinant(&f->scene->instances[0].to_world) < 0.0f);
 }
 
 static void matrices_are_column_major(void **state)

@@ -1,0 +1,253 @@
+/* Channels of animations: which property of what each changes, and its values. */
+#include "gltf/gltf_animation.h"
+
+#include <string.h>
+
+#include "gltf/gltf_choice.h"
+#include "gltf/gltf_matrix.h"
+#include "gltf/gltf_patch.h"
+#include "gltf/gltf_pose.h"
+
+enum { MAX_IGNORED = 8 }; /* channels without effect that are named one by one */
+
+/* One animation on its way. */
+typedef struct binder {
+    ppmi_gltf_reader *reader;
+    int32_t animation;
+    char place[PPMI_GLTF_PLACE]; /* of the channel */
+    size_t ignored, repeated;
+} binder;
+
+/* ---- bindings -------------------------------------------------------------------------------- */
+
+static bool is_bound_already(const ppmi_gltf_animations *all, const double *values)
+{
+    for (size_t i = 0; i < all->count; ++i) {
+        if (all->bindings[i].property.values == values) return true;
+    }
+    return false;
+}
+
+/* A node that is given as a matrix gets the parts that can move. They hold as long as it is
+ * animated. */
+static void prepare_node(ppmi_gltf_reader *reader, ppmi_gltf_binding *binding)
+{
+    ppmi_gltf_node *node =
+        &ppmi_gltf_document_edit(reader->document).nodes[binding->property.index];
+    const double *values = binding->property.values;
+    const bool is_placing =
+        values == node->translation || values == node->rotation || values == node->scale;
+    binding->has_matrix = node->has_matrix && is_placing;
+    if (!binding->has_matrix) return;
+    ppmi_gltf_matrix_decompose(node->matrix, node->translation, node->rotation, node->scale);
+}
+
+static ppm_status add_binding(binder *b, const ppmi_gltf_property *property, int32_t sampler)
+{
+    ppmi_gltf_reader *reader = b->reader;
+    ppmi_gltf_animations *all = reader->animations;
+    const ppmi_gltf_track_format format = {.width = property->count,
+                                           .components = property->is_list ? 1 : property->count,
+                                           .is_rotation = property->is_rotation,
+                                           .is_flag = property->is_flag};
+    ppmi_gltf_binding *items =
+        ppmi_gltf_grow(reader->context, all->bindings, all->count, &all->capacity, sizeof *items);
+    if (!items) return ppmi_gltf_out_of_memory(reader, b->place);
+    all->bindings = items;
+    if (is_bound_already(all, property->values)) b->repeated++;
+    ppmi_gltf_binding *binding = &items[all->count++];
+    *binding = (ppmi_gltf_binding){.property = *property};
+    if (property->list == PPMI_GLTF_NODES) prepare_node(reader, binding);
+    if (property->texture) binding->has_no_transform = !property->texture->has_transform;
+    binding->rest = ppmi_alloc(reader->context, property->count, sizeof *binding->rest);
+    if (!binding->rest) return ppmi_gltf_out_of_memory(reader, b->place);
+    memcpy(binding->rest, property->values, property->count * sizeof *binding->rest);
+    return ppmi_gltf_track_read(reader, b->animation, sampler, &format, b->place, &binding->track);
+}
+
+/* ---- channels -------------------------------------------------------------------------------- */
+
+static void ignore(binder *b, const char *why, const char *name)
+{
+    char shown[PPMI_GLTF_PLACE];
+    if (++b->ignored > MAX_IGNORED) return;
+    ppmi_gltf_warn(b->reader, b->place, "left out: %s '%s'%s", why,
+                   ppmi_gltf_printable(name, strlen(name), shown, sizeof shown),
+                   b->ignored == MAX_IGNORED ? " (further ones are not listed)" : "");
+}
+
+/* The weights of a mesh are those of every node that uses it and has none of its own. */
+static ppm_status bind_mesh_weights(binder *b, int32_t mesh, int32_t sampler)
+{
+    const ppmi_gltf_document *d = b->reader->document;
+    ppm_status status = PPM_STATUS_OK;
+    for (size_t i = 0; i < d->node_count && status == PPM_STATUS_OK; ++i) {
+        ppmi_gltf_property property;
+        if (d->nodes[i].mesh != mesh || d->nodes[i].weight_count > 0) continue;
+        if (!ppmi_gltf_node_property(b->reader, (int32_t)i, "weights", &property)) continue;
+        status = add_binding(b, &property, sampler);
+    }
+    return status;
+}
+
+static ppm_status bind_pointer(binder *b, const ppmi_gltf_channel *channel)
+{
+    ppmi_gltf_property property;
+    switch (ppmi_gltf_resolve_pointer(b->reader, channel->pointer, &property)) {
+    case PPMI_GLTF_POINTER_BROKEN:
+        return ppmi_gltf_invalid(b->reader, b->place, "the pointer leads nowhere");
+    case PPMI_GLTF_POINTER_IGNORED:
+        ignore(b, "nothing that is shown is at", channel->pointer);
+        return PPM_STATUS_OK;
+    default:
+        break;
+    }
+    if (property.list == PPMI_GLTF_MESHES) {
+        return bind_mesh_weights(b, property.index, channel->sampler);
+    }
+    return add_binding(b, &property, channel->sampler);
+}
+
+static ppm_status bind_channel(binder *b, const ppmi_gltf_channel *channel)
+{
+    ppmi_gltf_property property;
+    if (channel->pointer) return bind_pointer(b, channel);
+    if (channel->node < 0) return PPM_STATUS_OK; /* to be ignored, says the specification */
+    const ppm_status status =
+        ppmi_gltf_require(b->reader, PPMI_GLTF_NODES, channel->node, b->place);
+    if (status != PPM_STATUS_OK) return status;
+    if (ppmi_gltf_node_property(b->reader, channel->node, channel->path, &property)) {
+        return add_binding(b, &property, channel->sampler);
+    }
+    ignore(b, "the node has nothing of the name", channel->path);
+    return PPM_STATUS_OK;
+}
+
+static ppm_status bind_animation(ppmi_gltf_reader *reader, int32_t index)
+{
+    binder b = {.reader = reader, .animation = index};
+    ppmi_gltf_place(b.place, "animations[%d]", (int)index);
+    ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_ANIMATIONS, index, b.place);
+    if (status != PPM_STATUS_OK) return status;
+    const ppmi_gltf_animation *animation = &reader->document->animations[index];
+    for (uint32_t i = 0; i < animation->channel_count && status == PPM_STATUS_OK; ++i) {
+        ppmi_gltf_place(b.place, "animations[%d].channels[%u]", (int)index, (unsigned)i);
+        status = bind_channel(&b, &animation->channels[i]);
+    }
+    if (status == PPM_STATUS_OK && b.repeated > 0) {
+        ppmi_gltf_place(b.place, "animations[%d]", (int)index);
+        ppmi_gltf_warn(reader, b.place,
+                       "%zu of its channels change what earlier ones change too; the later ones "
+                       "count. An animation can be chosen by its name",
+                       b.repeated);
+    }
+    return status;
+}
+
+/* ---- the choice ------------------------------------------------------------------------------ */
+
+/* -1: all. */
+static ppm_status choose(ppmi_gltf_reader *reader, int32_t *out_index)
+{
+    const ppmi_gltf_document *d = reader->document;
+    *out_index = -1;
+    if (!reader->options->animation) return PPM_STATUS_OK;
+    const char **names = ppmi_alloc(reader->context, d->animation_count + 1, sizeof *names);
+    if (!names) return ppmi_gltf_out_of_memory(reader, "animations");
+    for (size_t i = 0; i < d->animation_count; ++i) {
+        names[i] = d->animations[i].name;
+    }
+    const ppm_status status = ppmi_gltf_choose(reader, "animation", reader->options->animation,
+                                               names, d->animation_count, false, out_index);
+    ppmi_free(reader->context, names);
+    return status;
+}
+
+ppm_status ppmi_gltf_animations_check_name(ppmi_gltf_reader *reader)
+{
+    int32_t index;
+    return choose(reader, &index);
+}
+
+ppm_status ppmi_gltf_animations_bind(ppmi_gltf_reader *reader)
+{
+    int32_t chosen;
+    if (reader->animations->is_bound) return PPM_STATUS_OK;
+    ppm_status status = choose(reader, &chosen);
+    for (size_t i = 0; i < reader->document->animation_count && status == PPM_STATUS_OK; ++i) {
+        if (chosen < 0 || (size_t)chosen == i) status = bind_animation(reader, (int32_t)i);
+    }
+    reader->animations->is_bound = status == PPM_STATUS_OK;
+    return status;
+}
+
+/* ---- values ---------------------------------------------------------------------------------- */
+
+static void set_switches(ppmi_gltf_reader *reader, const ppmi_gltf_binding *b, bool is_animated)
+{
+    if (b->has_matrix) {
+        ppmi_gltf_document_edit(reader->document).nodes[b->property.index].has_matrix =
+            !is_animated;
+    }
+    if (b->has_no_transform) b->property.texture->has_transform = is_animated;
+}
+
+void ppmi_gltf_animations_apply(ppmi_gltf_reader *reader, double time_s)
+{
+    for (size_t i = 0; i < reader->animations->count; ++i) {
+        const ppmi_gltf_binding *b = &reader->animations->bindings[i];
+        set_switches(reader, b, true);
+        ppmi_gltf_track_eval(&b->track, time_s, b->property.values);
+    }
+}
+
+void ppmi_gltf_animations_rest(ppmi_gltf_reader *reader)
+{
+    for (size_t i = 0; i < reader->animations->count; ++i) {
+        const ppmi_gltf_binding *b = &reader->animations->bindings[i];
+        set_switches(reader, b, false);
+        memcpy(b->property.values, b->rest, b->property.count * sizeof *b->rest);
+    }
+}
+
+bool ppmi_gltf_animations_change(const ppmi_gltf_reader *reader, int32_t list, int32_t index)
+{
+    for (size_t i = 0; i < reader->animations->count; ++i) {
+        const ppmi_gltf_property *p = &reader->animations->bindings[i].property;
+        if (p->list == list && p->index == index) return true;
+    }
+    return false;
+}
+
+void ppmi_gltf_animation_range(ppmi_gltf_reader *reader, int32_t animation, double *out_begin_s,
+                               double *out_end_s)
+{
+    static const ppmi_gltf_format scalar = {1, 1, 1, false};
+    const ppmi_gltf_animation *from = &reader->document->animations[animation];
+    bool is_first = true;
+    *out_begin_s = *out_end_s = 0.0;
+    for (uint32_t i = 0; i < from->sampler_count; ++i) {
+        float *times = NULL;
+        size_t count;
+        if (ppmi_gltf_read_floats(reader, from->samplers[i].input, "input", &scalar, &times,
+                                  &count) != PPM_STATUS_OK) {
+            continue;
+        }
+        const double begin = (double)times[0], end = (double)times[count - 1];
+        if (is_first || begin < *out_begin_s) *out_begin_s = begin;
+        if (is_first || end > *out_end_s) *out_end_s = end;
+        is_first = false;
+        ppmi_free(reader->context, times);
+    }
+}
+
+void ppmi_gltf_animations_deinit(ppm_context *context, ppmi_gltf_animations *animations)
+{
+    if (!animations) return;
+    for (size_t i = 0; i < animations->count; ++i) {
+        ppmi_gltf_track_deinit(context, &animations->bindings[i].track);
+        ppmi_free(context, animations->bindings[i].rest);
+    }
+    ppmi_free(context, animations->bindings);
+    ppmi_free(context, animations);
+}
