@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "gltf/gltf_scan.h"
@@ -55,6 +56,21 @@ static const char *name_in(const ppmi_gltf_reader *r, ppmi_gltf_span object, cha
 {
     const ppmi_gltf_span name = ppmi_gltf_scan_member(r->json, object, "name");
     return ppmi_gltf_scan_string(r->json, name, buffer, PPMI_GLTF_PLACE);
+}
+
+/* The scene that is asked for, or else the default; one that does not exist is refused on import.
+ */
+static size_t chosen_scene(const ppmi_gltf_reader *r)
+{
+    const ppmi_gltf_document *d = r->document;
+    const char *wanted = r->options->scene;
+    char *end = NULL;
+    for (size_t i = 0; wanted && i < d->scene_count; ++i) {
+        if (strcmp(d->scenes[i].name, wanted) == 0) return i;
+    }
+    const unsigned long number = wanted ? strtoul(wanted, &end, 10) : 0;
+    if (wanted && *wanted && *end == 0) return number;
+    return d->default_scene < 0 ? 0 : (size_t)d->default_scene;
 }
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
@@ -231,7 +247,7 @@ static void list_scene(const ppmi_gltf_reader *r, ppmi_catalog *catalog, const i
               .steps_left = d->node_count,
               .stack = ppmi_alloc(r->context, d->node_count + 1, sizeof *w.stack)};
     if (!w.stack) catalog->is_out_of_memory = true;
-    const size_t index = d->default_scene < 0 ? 0 : (size_t)d->default_scene;
+    const size_t index = chosen_scene(r);
     if (w.stack && index < d->scene_count) {
         for (uint32_t i = 0; i < d->scenes[index].node_count; ++i) {
             walk_from(&w, d->scenes[index].nodes[i]);

@@ -1,5 +1,5 @@
-/* Names are looked up in the file before it is opened for good, so that a wrong one is answered
- * with those that there are. */
+/* Names are looked up as soon as the file is open, so that a wrong one is answered with those that
+ * there are, before anything is imported. */
 #include "input.h"
 
 #include <math.h>
@@ -10,6 +10,7 @@
 #include "choose.h"
 #include "clock.h"
 #include "setup.h"
+#include "values.h"
 
 void input_deinit(cli_input *input)
 {
@@ -49,6 +50,24 @@ static int choose_item(cli_console *console, const ppm_asset *asset, int32_t kin
     return choose(console, &list, text, out_index);
 }
 
+/* Whether the names are in the file. The library says so too, but of scenes only on import. */
+static int check_names(cli_console *console, const ppm_asset *asset, const cli_options *options)
+{
+    const struct {
+        const char *option, *text;
+        int32_t kind;
+    } names[] = {{"--scene", options->scene, PPM_ASSET_SCENES},
+                 {"--variant", options->variant, PPM_ASSET_VARIANTS},
+                 {"--animation", options->animation, PPM_ASSET_ANIMATIONS}};
+    int result = EXIT_DONE;
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && result == EXIT_DONE; i++) {
+        uint32_t index = 0;
+        if (!names[i].text) continue;
+        result = choose_item(console, asset, names[i].kind, names[i].option, names[i].text, &index);
+    }
+    return result;
+}
+
 /* The library knows a scene by its name or by its number from 0; a scene may be called "0". */
 static void write_scene(const ppm_asset *asset, uint32_t index, char *buffer, size_t size)
 {
@@ -62,26 +81,6 @@ static void write_scene(const ppm_asset *asset, uint32_t index, char *buffer, si
     } else {
         snprintf(buffer, size, "%u", index);
     }
-}
-
-static int look_up(cli_console *console, const ppm_asset *asset, const cli_options *options,
-                   char *scene, size_t scene_size)
-{
-    uint32_t index = 0;
-    int result = EXIT_DONE;
-    if (options->scene) {
-        result = choose_item(console, asset, PPM_ASSET_SCENES, "--scene", options->scene, &index);
-        if (result == EXIT_DONE) write_scene(asset, index, scene, scene_size);
-    }
-    if (result == EXIT_DONE && options->variant) {
-        result =
-            choose_item(console, asset, PPM_ASSET_VARIANTS, "--variant", options->variant, &index);
-    }
-    if (result == EXIT_DONE && options->animation) {
-        result = choose_item(console, asset, PPM_ASSET_ANIMATIONS, "--animation",
-                             options->animation, &index);
-    }
-    return result;
 }
 
 /* ---- opening --------------------------------------------------------------------------------- */
@@ -105,39 +104,46 @@ static ppm_import_options plain_options(const cli_options *options)
                                 .strict = options->is_strict != 0};
 }
 
-/* Opens the file for its names alone, and puts them into wanted. Warnings are for the opening that
- * counts. */
-static int look_up_first(cli_console *console, ppm_context *context, const cli_options *options,
-                         ppm_import_options *wanted, char *scene, size_t scene_size)
+/* What the library calls the scene that a number from 1 stands for: the file is opened for its
+ * names alone. Warnings are for the opening that counts. */
+static int name_numbered_scene(cli_console *console, ppm_context *context,
+                               const cli_options *options, char *buffer, size_t size)
 {
     ppm_asset *asset = NULL;
+    uint32_t index = 0;
+    const ppm_import_options plain = plain_options(options);
     const int32_t verbosity = console->verbosity;
     console->verbosity = VERBOSITY_QUIET;
-    const ppm_status status = ppm_asset_open(context, options->input, wanted, &asset);
+    const ppm_status status = ppm_asset_open(context, options->input, &plain, &asset);
     console->verbosity = verbosity;
     if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_INPUT);
-    const int result = look_up(console, asset, options, scene, scene_size);
+    const int result =
+        choose_item(console, asset, PPM_ASSET_SCENES, "--scene", options->scene, &index);
+    if (result == EXIT_DONE) write_scene(asset, index, buffer, size);
     ppm_asset_close(asset);
-    wanted->scene = options->scene ? scene : NULL;
-    wanted->variant = options->variant;
-    wanted->animation = options->animation;
     return result;
 }
 
 int input_open(cli_input *input, cli_console *console, ppm_context *context,
                const cli_options *options, const cli_picture *picture)
 {
-    char scene[512] = "";
+    char scene[512];
+    uint64_t number = 0;
     const double begin = clock_seconds();
     ppm_import_options wanted = plain_options(options);
     wanted.pose = input->pose = pose_of(options, picture);
-    if (options->scene || options->variant || options->animation) {
-        const int result = look_up_first(console, context, options, &wanted, scene, sizeof scene);
+    wanted.scene = options->scene;
+    wanted.variant = options->variant;
+    wanted.animation = options->animation;
+    if (options->scene && value_parse_integer(options->scene, &number)) {
+        const int result = name_numbered_scene(console, context, options, scene, sizeof scene);
         if (result != EXIT_DONE) return result;
+        wanted.scene = scene;
     }
     const ppm_status status = ppm_asset_open(context, options->input, &wanted, &input->asset);
     input->seconds = clock_seconds() - begin;
-    return exit_status_of(status, EXIT_INPUT);
+    if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_USAGE); /* a wrong name */
+    return check_names(console, input->asset, options);
 }
 
 /* ---- moments --------------------------------------------------------------------------------- */

