@@ -270,7 +270,8 @@ void cli_options_print_help(FILE *stream)
           "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing -o walk.%04d.exr "
           "walk.glb\n"
           "\nExit status: 0 done (also when stopped by SIGINT or SIGTERM), 1 wrong usage,\n"
-          "2 input not usable, 3 output not writable, 4 out of resources.\n",
+          "2 input not usable, 3 output not writable, 4 out of resources, 130 ended by a signal\n"
+          "before its pictures were written.\n",
           stream);
 }
 
