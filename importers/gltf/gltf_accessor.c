@@ -32,29 +32,42 @@ static size_t component_size(int32_t type)
     }
 }
 
-/* count elements of element_size bytes from offset on in a buffer view. stride 0: packed. */
+/* Bytes from one column of a matrix to the next: columns begin at multiples of four bytes (section
+ * 3.6.2.4). Everything else is one column. */
+static size_t column_size(const ppmi_gltf_accessor *accessor)
+{
+    if (accessor->column_count == 0) return 0;
+    const size_t rows = accessor->component_count / accessor->column_count;
+    const size_t size = rows * component_size(accessor->component_type);
+    return accessor->column_count > 1 ? (size + 3) / 4 * 4 : size;
+}
+
+static size_t element_size(const ppmi_gltf_accessor *accessor)
+{
+    return accessor->column_count * column_size(accessor);
+}
+
+/* count elements of size bytes from offset on in a buffer view. stride 0: packed. */
 static ppm_status find_elements(ppmi_gltf_reader *reader, int32_t view, size_t offset, size_t count,
-                                size_t element_size, size_t stride, const char *place,
-                                elements *out)
+                                size_t size, size_t stride, const char *place, elements *out)
 {
     const unsigned char *bytes;
     size_t available;
     const ppm_status status = ppmi_gltf_view_bytes(reader, view, place, &bytes, &available);
     if (status != PPM_STATUS_OK) return status;
-    if (stride == 0) stride = element_size;
-    if (stride < element_size) {
-        return ppmi_gltf_invalid(reader, place,
-                                 "byteStride %zu is less than the element's %zu bytes", stride,
-                                 element_size);
+    if (stride == 0) stride = size;
+    if (stride < size) {
+        return ppmi_gltf_invalid(
+            reader, place, "byteStride %zu is less than the element's %zu bytes", stride, size);
     }
-    /* offset + (count - 1) * stride + element_size <= available, without overflow */
-    const bool fits = offset <= available && element_size <= available - offset &&
-                      (count - 1) <= (available - offset - element_size) / stride;
+    /* offset + (count - 1) * stride + size <= available, without overflow */
+    const bool fits = offset <= available && size <= available - offset &&
+                      (count - 1) <= (available - offset - size) / stride;
     if (!fits) {
         return ppmi_gltf_invalid(
             reader, place,
             "%zu elements of %zu bytes from %zu do not fit in bufferViews[%d] (%zu bytes)", count,
-            element_size, offset, (int)view, available);
+            size, offset, (int)view, available);
     }
     *out = (elements){bytes + offset, stride, count};
     return PPM_STATUS_OK;
@@ -63,13 +76,13 @@ static ppm_status find_elements(ppmi_gltf_reader *reader, int32_t view, size_t o
 static ppm_status find_base(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
                             const char *place, elements *out)
 {
-    const size_t size = component_size(accessor->component_type) * accessor->component_count;
     if (accessor->buffer_view < 0) {
-        if (accessor->count > MAX_ZERO_ELEMENTS - reader->zero_elements) {
+        const size_t vectors = accessor->column_count > 1 ? 4 : 1; /* of four values at most */
+        if (accessor->count > (MAX_ZERO_ELEMENTS - reader->zero_elements) / vectors) {
             return ppmi_gltf_invalid(
                 reader, place, "%zu elements without a buffer view are too many", accessor->count);
         }
-        reader->zero_elements += accessor->count;
+        reader->zero_elements += accessor->count * vectors;
         *out = (elements){NULL, 0, accessor->count};
         return PPM_STATUS_OK;
     }
@@ -78,7 +91,7 @@ static ppm_status find_base(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *
         stride = reader->document->buffer_views[accessor->buffer_view].byte_stride;
     }
     return find_elements(reader, accessor->buffer_view, accessor->byte_offset, accessor->count,
-                         size, stride, place, out);
+                         element_size(accessor), stride, place, out);
 }
 
 static uint32_t load_unsigned(const unsigned char *p, int32_t type)
@@ -128,6 +141,8 @@ static float load_float(const unsigned char *p, int32_t type, bool normalized)
 typedef struct conversion {
     int32_t type;
     uint32_t components, out_components;
+    uint32_t rows; /* of a column; components for all but matrices */
+    size_t column; /* bytes from one column to the next */
     bool normalized;
     float *floats; /* one of the two is set */
     uint32_t *indices;
@@ -142,13 +157,14 @@ static void convert(const conversion *c, const unsigned char *element, size_t in
     const size_t size = component_size(c->type);
     float *out = c->floats + index * c->out_components;
     for (uint32_t k = 0; k < c->out_components; ++k) {
-        out[k] = k < c->components ? load_float(element + k * size, c->type, c->normalized) : 1.0f;
+        const unsigned char *at = element + k / c->rows * c->column + k % c->rows * size;
+        out[k] = k < c->components ? load_float(at, c->type, c->normalized) : 1.0f;
     }
 }
 
 static void convert_all(const conversion *c, const elements *from)
 {
-    static const unsigned char zeros[16];
+    static const unsigned char zeros[64];
     for (size_t i = 0; i < from->count; ++i) {
         convert(c, from->bytes ? from->bytes + i * from->stride : zeros, i);
     }
@@ -170,8 +186,7 @@ static ppm_status convert_sparse(ppmi_gltf_reader *reader, const ppmi_gltf_acces
                       accessor->sparse_count, component_size(type), 0, place, &indices);
     if (status != PPM_STATUS_OK) return status;
     status = find_elements(reader, accessor->sparse_values_view, accessor->sparse_values_offset,
-                           accessor->sparse_count, component_size(c->type) * c->components, 0,
-                           place, &values);
+                           accessor->sparse_count, element_size(accessor), 0, place, &values);
     if (status != PPM_STATUS_OK) return status;
     for (size_t i = 0; i < accessor->sparse_count; ++i) {
         const uint32_t index = load_unsigned(indices.bytes + i * indices.stride, type);
@@ -213,7 +228,10 @@ ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const 
     ppm_status status = name_accessor(reader, index, place, inner, &accessor);
     if (status != PPM_STATUS_OK) return status;
     const uint32_t components = accessor->component_count;
-    if (components < format->min_components || components > format->max_components) {
+    /* MAT2 is nowhere asked for, and is no VEC4 */
+    const bool is_shape_right = accessor->column_count == 1 || format->min_components > 4;
+    if (!is_shape_right || components < format->min_components ||
+        components > format->max_components) {
         return ppmi_gltf_invalid(reader, inner, "type: %u components do not suit this attribute",
                                  (unsigned)components);
     }
@@ -228,6 +246,8 @@ ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const 
         .type = type,
         .components = components,
         .out_components = format->out_components,
+        .rows = components / accessor->column_count,
+        .column = column_size(accessor),
         .normalized = accessor->normalized || format->integers_are_normalized,
         .floats = ppmi_alloc(reader->context, base.count, format->out_components * sizeof(float))};
     if (!c.floats) return ppmi_gltf_out_of_memory(reader, inner);
@@ -261,6 +281,7 @@ ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t index, const
     const conversion c = {.type = type,
                           .components = 1,
                           .out_components = 1,
+                          .rows = 1,
                           .indices = ppmi_alloc(reader->context, base.count, sizeof(uint32_t))};
     if (!c.indices) return ppmi_gltf_out_of_memory(reader, inner);
     status = convert_accessor(reader, accessor, &base, &c, inner);

@@ -169,6 +169,17 @@ ppm_status ppmi_gltf_animations_check_name(ppmi_gltf_reader *reader)
     return choose(reader, &index);
 }
 
+/* Forgets all bindings. */
+static void clear(ppm_context *context, ppmi_gltf_animations *animations)
+{
+    for (size_t i = 0; i < animations->count; ++i) {
+        ppmi_gltf_track_deinit(context, &animations->bindings[i].track);
+        ppmi_free(context, animations->bindings[i].rest);
+    }
+    ppmi_free(context, animations->bindings);
+    *animations = (ppmi_gltf_animations){0};
+}
+
 ppm_status ppmi_gltf_animations_bind(ppmi_gltf_reader *reader)
 {
     int32_t chosen;
@@ -177,6 +188,7 @@ ppm_status ppmi_gltf_animations_bind(ppmi_gltf_reader *reader)
     for (size_t i = 0; i < reader->document->animation_count && status == PPM_STATUS_OK; ++i) {
         if (chosen < 0 || (size_t)chosen == i) status = bind_animation(reader, (int32_t)i);
     }
+    if (status != PPM_STATUS_OK) clear(reader->context, reader->animations);
     reader->animations->is_bound = status == PPM_STATUS_OK;
     return status;
 }
@@ -219,35 +231,9 @@ bool ppmi_gltf_animations_change(const ppmi_gltf_reader *reader, int32_t list, i
     return false;
 }
 
-void ppmi_gltf_animation_range(ppmi_gltf_reader *reader, int32_t animation, double *out_begin_s,
-                               double *out_end_s)
-{
-    static const ppmi_gltf_format scalar = {1, 1, 1, false};
-    const ppmi_gltf_animation *from = &reader->document->animations[animation];
-    bool is_first = true;
-    *out_begin_s = *out_end_s = 0.0;
-    for (uint32_t i = 0; i < from->sampler_count; ++i) {
-        float *times = NULL;
-        size_t count;
-        if (ppmi_gltf_read_floats(reader, from->samplers[i].input, "input", &scalar, &times,
-                                  &count) != PPM_STATUS_OK) {
-            continue;
-        }
-        const double begin = (double)times[0], end = (double)times[count - 1];
-        if (is_first || begin < *out_begin_s) *out_begin_s = begin;
-        if (is_first || end > *out_end_s) *out_end_s = end;
-        is_first = false;
-        ppmi_free(reader->context, times);
-    }
-}
-
 void ppmi_gltf_animations_deinit(ppm_context *context, ppmi_gltf_animations *animations)
 {
     if (!animations) return;
-    for (size_t i = 0; i < animations->count; ++i) {
-        ppmi_gltf_track_deinit(context, &animations->bindings[i].track);
-        ppmi_free(context, animations->bindings[i].rest);
-    }
-    ppmi_free(context, animations->bindings);
+    clear(context, animations);
     ppmi_free(context, animations);
 }

@@ -34,10 +34,6 @@ void ppmi_gltf_animations_rest(ppmi_gltf_reader *reader);
 /* Whether any value of an element of a list (PPMI_GLTF_) is animated. */
 bool ppmi_gltf_animations_change(const ppmi_gltf_reader *reader, int32_t list, int32_t index);
 
-/* First and last key of an animation, in seconds; 0 and 0 when it has none that can be read. */
-void ppmi_gltf_animation_range(ppmi_gltf_reader *reader, int32_t animation, double *out_begin_s,
-                               double *out_end_s);
-
 void ppmi_gltf_animations_deinit(ppm_context *context, ppmi_gltf_animations *animations);
 
 #endif

@@ -21,6 +21,20 @@ static bool compact_array(ppm_context *context, float **values, size_t width,
     return true;
 }
 
+/* Remembers where the used vertices came from. */
+static bool compact_sources(ppm_context *context, ppmi_gltf_geometry *g, const uint32_t *new_index,
+                            size_t used)
+{
+    uint32_t *kept = ppmi_alloc(context, used, sizeof *kept);
+    if (!kept) return false;
+    for (size_t i = 0; i < g->vertex_count; ++i) {
+        if (new_index[i] != UNUSED) kept[new_index[i]] = g->sources ? g->sources[i] : (uint32_t)i;
+    }
+    ppmi_free(context, g->sources);
+    g->sources = kept;
+    return true;
+}
+
 /* The new index of every vertex, or UNUSED. Returns how many are used. */
 static size_t number_used(const ppmi_gltf_geometry *g, uint32_t *new_index)
 {
@@ -47,7 +61,8 @@ bool ppmi_gltf_compact(ppm_context *context, ppmi_gltf_geometry *g)
         ok = compact_array(context, &g->positions, 3, new_index, count, used) &&
              compact_array(context, &g->normals, 3, new_index, count, used) &&
              compact_array(context, &g->tangents, 4, new_index, count, used) &&
-             compact_array(context, &g->colors, 4, new_index, count, used);
+             compact_array(context, &g->colors, 4, new_index, count, used) &&
+             compact_sources(context, g, new_index, used);
         for (size_t i = 0; ok && i < PPM_MAX_UV_SETS; ++i) {
             ok = compact_array(context, &g->uvs[i], 2, new_index, count, used);
         }

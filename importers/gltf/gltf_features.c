@@ -39,11 +39,11 @@ static const struct {
                      ": the specification gives them no meaning"},
     [MORE_UV_SETS] = {"TEXCOORD_8 and further", PPM_FEATURE_IGNORED, "primitives",
                       ": TEXCOORD_7 is the last that is read"},
-    [MORPH_TARGETS] = {"morph targets", PPM_FEATURE_IGNORED, "primitives", ": not applied"},
+    [MORPH_TARGETS] = {"morph targets", PPM_FEATURE_HONOURED, "primitives", ""},
     [OCCLUSION] = {"occlusion textures", PPM_FEATURE_APPROXIMATED, "materials",
                    ": not used; the light that surfaces keep from each other is computed"},
     [POINTS] = {"points", PPM_FEATURE_IGNORED, "primitives", ": left out"},
-    [SKINS] = {"skins", PPM_FEATURE_IGNORED, "skins", ": not applied"},
+    [SKINS] = {"skins", PPM_FEATURE_HONOURED, "skins", ""},
     [VERTEX_COLORS] = {"vertex colours", PPM_FEATURE_HONOURED, "primitives", ""},
 };
 

@@ -8,8 +8,10 @@
 typedef struct ppmi_gltf_geometry {
     size_t vertex_count, triangle_count;
     float *positions, *normals, *tangents, *colors;
+    bool is_taken; /* the first three belong to what deforms the mesh */
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;
+    uint32_t *sources; /* the number in the file of each vertex, or NULL: its own */
     ppm_material_id material;
 } ppmi_gltf_geometry;
 

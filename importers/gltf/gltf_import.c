@@ -152,7 +152,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_gltf_report_deinit(r->context, &r->report);
     ppmi_gltf_animations_deinit(r->context, r->animations);
     ppmi_gltf_pose_destroy(r->context, r->pose);
-    ppmi_gltf_placements_destroy(r->context, r->placements);
+    ppmi_gltf_placements_destroy(r);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
     ppmi_free(r->context, r->file);

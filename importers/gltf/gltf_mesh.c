@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/gltf_deform.h"
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
@@ -13,14 +14,17 @@ static const ppmi_gltf_format color_format = {3, 4, 4, true};
 
 static void free_geometry(ppm_context *context, ppmi_gltf_geometry *g)
 {
-    ppmi_free(context, g->positions);
-    ppmi_free(context, g->normals);
-    ppmi_free(context, g->tangents);
+    if (!g->is_taken) {
+        ppmi_free(context, g->positions);
+        ppmi_free(context, g->normals);
+        ppmi_free(context, g->tangents);
+    }
     ppmi_free(context, g->colors);
     for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
         ppmi_free(context, g->uvs[i]);
     }
     ppmi_free(context, g->indices);
+    ppmi_free(context, g->sources);
 }
 
 static int32_t find_attribute(const ppmi_gltf_primitive *primitive, const char *name)
@@ -172,17 +176,24 @@ static void describe(const ppmi_gltf_geometry *g, ppm_primitive_desc *out)
     }
 }
 
-/* Hands the drawable ones of a mesh's primitives to the scene. */
+/* Hands the drawable ones of a mesh's primitives to the scene; deform is NULL for one that keeps
+ * its shape. */
 static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
                        const ppmi_gltf_geometry *all, ppm_primitive_desc *descs,
-                       ppm_mesh_id *out_id)
+                       ppmi_gltf_deform *deform, ppm_mesh_id *out_id)
 {
     char name[PPMI_GLTF_PLACE];
     uint32_t count = 0;
-    for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
-        if (all[i].triangle_count > 0) describe(&all[i], &descs[count++]);
-    }
     *out_id = 0;
+    for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
+        if (all[i].triangle_count == 0) continue;
+        describe(&all[i], &descs[count]);
+        if (deform) {
+            const ppm_status status = ppmi_gltf_deform_pose(reader, deform, count, &descs[count]);
+            if (status != PPM_STATUS_OK) return status;
+        }
+        ++count;
+    }
     if (count == 0) return PPM_STATUS_OK;
     const ppm_mesh_desc desc = {
         .size = sizeof desc,
@@ -192,7 +203,8 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
 }
 
-static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id *out_id)
+static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_deform *deform,
+                              ppm_mesh_id *out_id)
 {
     const ppmi_gltf_mesh *mesh = &reader->document->meshes[index];
     char place[PPMI_GLTF_PLACE];
@@ -207,8 +219,12 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_
     for (uint32_t i = 0; i < mesh->primitive_count && status == PPM_STATUS_OK; ++i) {
         ppmi_gltf_place(place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
         status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
+        if (status == PPM_STATUS_OK && deform && all[i].triangle_count > 0) {
+            status = ppmi_gltf_deform_read(reader, deform, &mesh->primitives[i], place, &all[i]);
+        }
     }
-    if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);
+    if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, deform, out_id);
+    if (deform) ppmi_gltf_deform_release(reader->context, deform);
     for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
         free_geometry(reader->context, &all[i]);
     }
@@ -223,9 +239,15 @@ ppm_status ppmi_gltf_use_mesh(ppmi_gltf_reader *reader, int32_t mesh, const char
     ppm_status status = ppmi_gltf_require(reader, PPMI_GLTF_MESHES, mesh, place);
     if (status != PPM_STATUS_OK) return status;
     if (reader->meshes[mesh] == 0 && !reader->empty_meshes[mesh]) {
-        status = import_mesh(reader, mesh, &reader->meshes[mesh]);
+        status = import_mesh(reader, mesh, NULL, &reader->meshes[mesh]);
         reader->empty_meshes[mesh] = reader->meshes[mesh] == 0;
     }
     *out_id = reader->meshes[mesh];
     return status;
+}
+
+ppm_status ppmi_gltf_add_deformed_mesh(ppmi_gltf_reader *reader, ppmi_gltf_deform *deform)
+{
+    const int32_t mesh = reader->document->nodes[deform->node].mesh;
+    return import_mesh(reader, mesh, deform, &deform->mesh);
 }

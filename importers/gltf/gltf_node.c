@@ -4,6 +4,7 @@
 
 #include "gltf/gltf_animation.h"
 #include "gltf/gltf_choice.h"
+#include "gltf/gltf_deform.h"
 #include "gltf/gltf_matrix.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_pose.h"
@@ -26,7 +27,10 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     const char *node_name = node->name[0] ? node->name : reader->document->meshes[node->mesh].name;
-    const uint32_t steps = reader->pose->node_steps[index];
+    /* a skinned mesh is in the world already */
+    const bool is_skinned = node->skin >= 0;
+    const uint32_t steps = is_skinned ? 1 : reader->pose->node_steps[index];
+    static const double identity[16] = {[0] = 1.0, [5] = 1.0, [10] = 1.0, [15] = 1.0};
     char name[PPMI_GLTF_PLACE], place[PPMI_GLTF_PLACE];
     ppm_instance_desc desc = {
         .size = sizeof desc,
@@ -34,7 +38,8 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
         .mesh = mesh};
     float motion[16 * PPM_MAX_MOTION_STEPS];
     for (uint32_t i = 0; i < steps; ++i) {
-        const double *world = ppmi_gltf_pose_world(reader->pose, index, i, steps);
+        const double *world =
+            is_skinned ? identity : ppmi_gltf_pose_world(reader->pose, index, i, steps);
         double product[16];
         if (local) ppmi_gltf_matrix_multiply(world, local, product);
         if (ppmi_gltf_matrix_to_floats(local ? product : world, motion + 16 * (size_t)i)) continue;
@@ -116,17 +121,56 @@ static bool is_never_seen(const ppmi_gltf_reader *reader, int32_t index)
     return !reader->pose->is_visible[index] && reader->document->animation_count == 0;
 }
 
+static ppm_status update_vertices(ppmi_gltf_reader *reader, ppmi_gltf_deform *deform)
+{
+    ppm_status status = PPM_STATUS_OK;
+    for (uint32_t i = 0; i < deform->primitive_count && status == PPM_STATUS_OK; ++i) {
+        ppm_primitive_desc desc = {0};
+        status = ppmi_gltf_deform_pose(reader, deform, i, &desc);
+        if (status == PPM_STATUS_OK) {
+            status = ppm_scene_set_mesh_vertices(reader->scene, deform->mesh, i, &desc);
+        }
+        ppmi_gltf_deform_release(reader->context, deform);
+    }
+    return status;
+}
+
+/* A mesh with vertices of its own: *out_id is 0 when nothing in it can be drawn. */
+static ppm_status use_deformed_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id *out_id)
+{
+    ppmi_gltf_deform **deform = &reader->placements->deforms[index];
+    char place[PPMI_GLTF_PLACE];
+    ppm_status status = PPM_STATUS_OK;
+    ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
+    if (!*deform) {
+        const int32_t mesh = reader->document->nodes[index].mesh;
+        status = ppmi_gltf_require(reader, PPMI_GLTF_MESHES, mesh, place);
+        if (status == PPM_STATUS_OK) status = ppmi_gltf_deform_create(reader, index, deform);
+        if (status == PPM_STATUS_OK) status = ppmi_gltf_add_deformed_mesh(reader, *deform);
+    } else if ((*deform)->mesh != 0 && ppmi_gltf_deform_has_moved(reader, *deform)) {
+        status = update_vertices(reader, *deform);
+    }
+    *out_id = *deform ? (*deform)->mesh : 0;
+    return status;
+}
+
+static ppm_status use_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id *out_id)
+{
+    char place[PPMI_GLTF_PLACE];
+    if (ppmi_gltf_is_deformed(reader, index)) return use_deformed_mesh(reader, index, out_id);
+    ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
+    return ppmi_gltf_use_mesh(reader, reader->document->nodes[index].mesh, place, out_id);
+}
+
 static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
-    char place[PPMI_GLTF_PLACE];
     ppm_mesh_id mesh;
     if (is_never_seen(reader, index)) return PPM_STATUS_OK;
-    if (reader->is_posed_again && !reader->pose->has_moved[index]) return PPM_STATUS_OK;
-    ppmi_gltf_place(place, "nodes[%d].mesh", (int)index);
-    const ppm_status status = ppmi_gltf_use_mesh(reader, node->mesh, place, &mesh);
+    const ppm_status status = use_mesh(reader, index, &mesh);
     if (status != PPM_STATUS_OK || mesh == 0) return status;
-    if (node->is_instanced) return add_gpu_instances(reader, index, mesh);
+    if (reader->is_posed_again && !reader->pose->has_moved[index]) return PPM_STATUS_OK;
+    if (node->is_instanced && node->skin < 0) return add_gpu_instances(reader, index, mesh);
     return add_instance(reader, index, mesh, 0, NULL);
 }
 

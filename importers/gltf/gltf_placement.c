@@ -1,5 +1,6 @@
 #include "gltf/gltf_placement.h"
 
+#include "gltf/gltf_deform.h"
 #include "gltf/gltf_patch.h"
 
 ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
@@ -11,7 +12,8 @@ ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
     p->first_instance = ppmi_alloc(reader->context, count + 1, sizeof *p->first_instance);
     p->cameras = ppmi_alloc_zeroed(reader->context, count + 1, sizeof *p->cameras);
     p->lights = ppmi_alloc_zeroed(reader->context, count + 1, sizeof *p->lights);
-    if (!p->first_instance || !p->cameras || !p->lights) {
+    p->deforms = ppmi_alloc_zeroed(reader->context, count + 1, sizeof(ppmi_gltf_deform *));
+    if (!p->first_instance || !p->cameras || !p->lights || !p->deforms) {
         return ppmi_gltf_out_of_memory(reader, "nodes");
     }
     for (size_t i = 0; i < count; ++i) {
@@ -20,9 +22,15 @@ ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader)
     return PPM_STATUS_OK;
 }
 
-void ppmi_gltf_placements_destroy(ppm_context *context, ppmi_gltf_placements *p)
+void ppmi_gltf_placements_destroy(ppmi_gltf_reader *reader)
 {
+    ppmi_gltf_placements *p = reader->placements;
+    ppm_context *context = reader->context;
     if (!p) return;
+    for (size_t i = 0; p->deforms && i < reader->document->node_count; ++i) {
+        ppmi_gltf_deform_destroy(context, p->deforms[i]);
+    }
+    ppmi_free(context, p->deforms);
     ppmi_free(context, p->first_instance);
     ppmi_free(context, p->cameras);
     ppmi_free(context, p->lights);

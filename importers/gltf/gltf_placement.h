@@ -10,12 +10,13 @@ typedef struct ppmi_gltf_placements {
     int64_t *first_instance; /* per node, in instances; -1: none yet */
     ppm_camera_id *cameras;  /* per node; 0: none yet */
     ppm_light_id *lights;
+    struct ppmi_gltf_deform **deforms; /* per node; NULL: none */
     size_t instance_count, instance_capacity;
     ppm_instance_id *instances;
 } ppmi_gltf_placements;
 
 ppm_status ppmi_gltf_placements_create(ppmi_gltf_reader *reader);
-void ppmi_gltf_placements_destroy(ppm_context *context, ppmi_gltf_placements *placements);
+void ppmi_gltf_placements_destroy(ppmi_gltf_reader *reader);
 
 /* Each adds what a node has at its first call, and changes it at the later ones. ordinal counts the
  * instances of a node from 0, in order. */

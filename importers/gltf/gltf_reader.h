@@ -114,8 +114,9 @@ typedef struct ppmi_gltf_format {
     bool integers_are_normalized;            /* even where the accessor does not say so */
 } ppmi_gltf_format;
 
-/* Reads an accessor as floats, count * format->out_components of them. *out_values is the caller's
- * to free, NULL on failure. */
+/* Reads an accessor as floats, count * format->out_components of them; matrices, where a format asks
+ * for 9 or 16 components, column by column and tightly packed. *out_values is the caller's to free,
+ * NULL on failure. */
 ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
                                  const ppmi_gltf_format *format, float **out_values,
                                  size_t *out_count);

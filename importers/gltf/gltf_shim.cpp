@@ -176,20 +176,28 @@ ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
 
 // ---- geometry -----------------------------------------------------------------------------------
 
-uint32_t component_count(int type)
+// Sets components and columns; both are 0 for a type that does not exist.
+void copy_shape(int type, ppmi_gltf_accessor *out)
 {
     switch (type) {
     case TINYGLTF_TYPE_SCALAR:
-        return 1;
     case TINYGLTF_TYPE_VEC2:
-        return 2;
     case TINYGLTF_TYPE_VEC3:
-        return 3;
     case TINYGLTF_TYPE_VEC4:
-        return 4;
+    case TINYGLTF_TYPE_MAT2:
+    case TINYGLTF_TYPE_MAT3:
+    case TINYGLTF_TYPE_MAT4:
+        break;
     default:
-        return 0;
+        return;
     }
+    const bool is_matrix =
+        type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
+    out->component_count = static_cast<uint32_t>(tinygltf::GetNumComponentsInType(type));
+    out->column_count = !is_matrix                   ? 1
+                        : type == TINYGLTF_TYPE_MAT2 ? 2
+                        : type == TINYGLTF_TYPE_MAT3 ? 3
+                                                     : 4;
 }
 
 ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
@@ -198,7 +206,7 @@ ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
     out.buffer_view = from.bufferView;
     out.byte_offset = from.byteOffset;
     out.component_type = from.componentType;
-    out.component_count = component_count(from.type);
+    copy_shape(from.type, &out);
     out.normalized = from.normalized;
     out.count = from.count;
     if (from.sparse.isSparse) {

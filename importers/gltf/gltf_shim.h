@@ -38,7 +38,8 @@ typedef struct ppmi_gltf_accessor {
     int32_t buffer_view; /* -1: zeros */
     size_t byte_offset;
     int32_t component_type;
-    uint32_t component_count; /* 1..4 of SCALAR and VECn, 0 for matrices */
+    uint32_t component_count; /* 1..4 of SCALAR and VECn; 4, 9, 16 of matrices */
+    uint32_t column_count;    /* of matrices, 2..4; 1 for all others */
     bool normalized;
     size_t count;
     size_t sparse_count; /* 0: not sparse */

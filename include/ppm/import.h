@@ -24,13 +24,15 @@ enum {
     PPM_TRANSMISSION_POLICY_THIN = 2   /* every one is a thin sheet */
 };
 
-/* A time, or a shutter's, in the seconds of the file's animations. */
+/* A time, or a shutter's, in the seconds of the file's animations. What has one value for a picture
+ * (visibility, lights, materials, the angle of a camera) has that of the middle. */
 typedef struct ppm_pose {
     uint32_t is_animated;  /* 0: the pose that the nodes have without animation; the rest is not
                               read */
     double open_s;         /* when the shutter opens */
     double close_s;        /* when it closes; equal to open_s: nothing is blurred */
-    uint32_t motion_steps; /* times at which what moves is looked at, both ends among them; 0: 2 */
+    uint32_t motion_steps; /* times at which what moves is looked at, both ends among them; 1: only
+                              the opening; 0: for each thing as many as show its way, up to 33 */
 } ppm_pose;
 
 typedef struct ppm_import_options {

@@ -18,16 +18,22 @@ typedef struct ppmi_ray {
 } ppmi_ray;
 
 typedef struct ppmi_hit {
-    uint32_t instance, primitive, triangle; /* indices into scene, its mesh, its triangles */
-    float u, v;                             /* weights of the triangle's second and third vertex */
+    uint32_t instance, primitive, triangle; /* indices into scene, its mesh, its triangles or other
+                                               elements */
+    float u, v; /* weights of the triangle's second and third vertex; of points and lines: the
+                   place (accel/round.h) */
     float t;
+    float time; /* the ray's */
 } ppmi_hit;
 
-/* Builds all acceleration structures of a frozen scene, which must outlive the result. The build
- * uses Embree's own threads; what it gives does not depend on the threads of a render.
- * Returns OK, OUT_OF_MEMORY, INTERNAL. */
-ppm_status ppmi_accel_create(ppm_context *context, const ppm_scene *scene, ppmi_accel **out_accel);
+/* Builds the acceleration structures of a frozen scene, which must outlive the result. Those of
+ * meshes stay with the scene, and serve until their vertices change. The build uses all cores; what
+ * it gives does not depend on the threads of a render. Returns OK, OUT_OF_MEMORY, INTERNAL. */
+ppm_status ppmi_accel_create(ppm_context *context, ppm_scene *scene, ppmi_accel **out_accel);
 void ppmi_accel_destroy(ppmi_accel *accel);
+
+/* Structures of meshes that have been built for this scene so far. */
+uint64_t ppmi_accel_builds(const ppm_scene *scene);
 
 /* The closest hit in (0, t_max); false when there is none. Any thread. */
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit);

@@ -1,22 +1,7 @@
-/* The acceleration structure, on Embree 3.13 or 4. */
-#include <stdio.h>
+/* Rays through the acceleration structure, on Embree 3.13 or 4. */
+#include "accel/embree.h"
 
-#include "accel/accel.h"
-#include "scene/scene.h"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
-struct ppmi_accel {
-    ppm_context *context;
-    RTCDevice device;
-    RTCScene *meshes; /* one per mesh; NULL for a mesh without triangles */
-    uint32_t mesh_count;
-    RTCScene top;
-};
+#include "accel/round.h"
 
 #define PPMI_STRINGIZE_(x) #x
 #define PPMI_STRINGIZE(x) PPMI_STRINGIZE_(x)
@@ -25,142 +10,6 @@ const char *ppmi_accel_version(void)
 {
     return "Embree " PPMI_STRINGIZE(RTC_VERSION_MAJOR) "." PPMI_STRINGIZE(
         RTC_VERSION_MINOR) "." PPMI_STRINGIZE(RTC_VERSION_PATCH);
-}
-
-static void on_error(void *user, enum RTCError code, const char *text)
-{
-    const ppmi_accel *accel = user;
-    ppmi_log(accel->context, PPM_LOG_DEBUG, "Embree: error %d: %s", (int)code, text ? text : "");
-}
-
-static ppm_status check_device(ppmi_accel *accel, const char *step)
-{
-    switch (rtcGetDeviceError(accel->device)) {
-    case RTC_ERROR_NONE:
-        return PPM_STATUS_OK;
-    case RTC_ERROR_OUT_OF_MEMORY:
-        return ppmi_fail(accel->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %s", step);
-    default:
-        return ppmi_fail(accel->context, PPM_STATUS_INTERNAL, "Embree failed: %s", step);
-    }
-}
-
-/* Shares the scene's arrays with Embree: nothing is copied. */
-static void attach_primitive(ppmi_accel *accel, RTCScene mesh_scene, unsigned id,
-                             const ppmi_primitive *primitive)
-{
-    RTCGeometry geometry = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               primitive->positions, 0, 3 * sizeof(float), primitive->vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               primitive->indices, 0, 3 * sizeof(uint32_t),
-                               primitive->triangle_count);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(mesh_scene, geometry, id);
-    rtcReleaseGeometry(geometry);
-}
-
-#if RTC_VERSION_MAJOR >= 4
-#define FILTER_FLAG RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
-#else
-#define FILTER_FLAG RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
-#endif
-
-/* ROBUST: no ray slips through the edge between two triangles. */
-static RTCScene new_scene(ppmi_accel *accel)
-{
-    RTCScene scene = rtcNewScene(accel->device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | FILTER_FLAG);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    return scene;
-}
-
-static void build_mesh(ppmi_accel *accel, const ppmi_mesh *mesh, uint32_t index)
-{
-    bool has_triangles = false;
-    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        has_triangles = has_triangles || mesh->primitives[i].triangle_count > 0;
-    }
-    if (!has_triangles) return;
-    accel->meshes[index] = new_scene(accel);
-    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        if (mesh->primitives[i].triangle_count > 0) {
-            attach_primitive(accel, accel->meshes[index], i, &mesh->primitives[i]);
-        }
-    }
-    rtcCommitScene(accel->meshes[index]);
-}
-
-static void attach_instance(ppmi_accel *accel, const ppmi_instance *instance, uint32_t index)
-{
-    if (!accel->meshes[instance->mesh] || !ppmi_instance_is_there(instance)) return;
-    const ppmi_transform *m = &instance->to_world;
-    const float columns[12] = {m->x.x, m->x.y, m->x.z, m->y.x,      m->y.y,      m->y.z,
-                               m->z.x, m->z.y, m->z.z, m->origin.x, m->origin.y, m->origin.z};
-    RTCGeometry geometry = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, accel->meshes[instance->mesh]);
-    rtcSetGeometryTimeStepCount(geometry, 1);
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(accel->top, geometry, index);
-    rtcReleaseGeometry(geometry);
-}
-
-static ppm_status build(ppmi_accel *accel, const ppm_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->mesh_count; i++) {
-        build_mesh(accel, &scene->meshes[i], i);
-        const ppm_status status =
-            check_device(accel, "building the acceleration structure of a mesh");
-        if (status != PPM_STATUS_OK) return status;
-    }
-    accel->top = new_scene(accel);
-    for (uint32_t i = 0; i < scene->instance_count; i++) {
-        attach_instance(accel, &scene->instances[i], i);
-    }
-    rtcCommitScene(accel->top);
-    return check_device(accel, "building the acceleration structure of the instances");
-}
-
-ppm_status ppmi_accel_create(ppm_context *context, const ppm_scene *scene, ppmi_accel **out_accel)
-{
-    ppmi_accel *accel = ppmi_alloc_zeroed(context, 1, sizeof *accel);
-    if (!accel) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: ray tracing");
-    accel->context = context;
-    accel->mesh_count = scene->mesh_count;
-    accel->meshes = ppmi_alloc_zeroed(context, scene->mesh_count, sizeof *accel->meshes);
-    ppm_status status = PPM_STATUS_OK;
-    if (scene->mesh_count > 0 && !accel->meshes) {
-        status = ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: ray tracing");
-    }
-    if (status == PPM_STATUS_OK) {
-        accel->device = rtcNewDevice(NULL);
-        if (accel->device) {
-            rtcSetDeviceErrorFunction(accel->device, on_error, accel);
-            status = build(accel, scene);
-        } else {
-            status = ppmi_fail(context, PPM_STATUS_INTERNAL, "Embree does not start (error %d)",
-                               (int)rtcGetDeviceError(NULL));
-        }
-    }
-    if (status != PPM_STATUS_OK) {
-        ppmi_accel_destroy(accel);
-        return status;
-    }
-    *out_accel = accel;
-    return PPM_STATUS_OK;
-}
-
-void ppmi_accel_destroy(ppmi_accel *accel)
-{
-    if (!accel) return;
-    if (accel->top) rtcReleaseScene(accel->top);
-    for (uint32_t i = 0; accel->meshes && i < accel->mesh_count; i++) {
-        if (accel->meshes[i]) rtcReleaseScene(accel->meshes[i]);
-    }
-    if (accel->device) rtcReleaseDevice(accel->device);
-    ppmi_free(accel->context, accel->meshes);
-    ppmi_free(accel->context, accel);
 }
 
 static struct RTCRay embree_ray(const ppmi_ray *ray)
@@ -178,6 +27,25 @@ static struct RTCRay embree_ray(const ppmi_ray *ray)
     };
 }
 
+/* Round elements are told from triangles by their geometry number: their places are by angles. */
+static ppmi_hit hit_of(const ppmi_accel *accel, const struct RTCHit *found, float t, float time)
+{
+    ppmi_hit hit = {
+        .instance = found->instID[0],
+        .primitive = found->geomID,
+        .triangle = found->primID,
+        .u = found->u,
+        .v = found->v,
+        .t = t,
+        .time = time,
+    };
+    if (accel->has_round) {
+        const ppmi_vec3 normal = vec3(found->Ng_x, found->Ng_y, found->Ng_z);
+        ppmi_round_place(accel->scene, normal, &hit);
+    }
+    return hit;
+}
+
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit)
 {
     struct RTCRayHit query;
@@ -192,14 +60,7 @@ bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit
     rtcIntersect1(accel->top, &context, &query);
 #endif
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    *out_hit = (ppmi_hit){
-        .instance = query.hit.instID[0],
-        .primitive = query.hit.geomID,
-        .triangle = query.hit.primID,
-        .u = query.hit.u,
-        .v = query.hit.v,
-        .t = query.ray.tfar,
-    };
+    *out_hit = hit_of(accel, &query.hit, query.ray.tfar, ray->time);
     return true;
 }
 
@@ -212,6 +73,7 @@ typedef struct collection {
 #else
     struct RTCIntersectContext context;
 #endif
+    const ppmi_accel *accel;
     ppmi_hit *hits;
     uint32_t count, max;
 } collection;
@@ -225,14 +87,7 @@ static void collect(const struct RTCFilterFunctionNArguments *arguments)
     const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
     arguments->valid[0] = 0;
     if (all->count == all->max) return;
-    const ppmi_hit hit = {
-        .instance = found->instID[0],
-        .primitive = found->geomID,
-        .triangle = found->primID,
-        .u = found->u,
-        .v = found->v,
-        .t = ray->tfar,
-    };
+    const ppmi_hit hit = hit_of(all->accel, found, ray->tfar, ray->time);
     uint32_t place = all->count++;
     for (; place > 0 && all->hits[place - 1].t > hit.t; place--)
         all->hits[place] = all->hits[place - 1];
@@ -246,7 +101,7 @@ uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, 
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    collection all = {.hits = out_hits, .max = max};
+    collection all = {.accel = accel, .hits = out_hits, .max = max};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&all.context);
     struct RTCIntersectArguments arguments;

@@ -1,6 +1,8 @@
 /* Camera rays. */
 #include "camera/camera.h"
 
+#include "scene/motion.h"
+
 void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t height,
                            ppmi_camera_view *out_view)
 {
@@ -19,8 +21,78 @@ void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t h
         .spread = is_perspective ? pixel : 0.0f,
         .base_width = is_perspective ? 0.0f : pixel,
         .is_perspective = is_perspective,
+        .motion_steps = camera->motion_steps,
+        .motion = camera->motion,
     };
 }
+
+/* ---- motion ---------------------------------------------------------------------------------- */
+
+typedef struct quaternion {
+    float x, y, z, w;
+} quaternion;
+
+/* From three orthonormal columns (Shepperd 1978): by the largest of the four squares. */
+static quaternion turn_of(ppmi_vec3 x, ppmi_vec3 y, ppmi_vec3 z)
+{
+    const float trace = x.x + y.y + z.z;
+    if (trace > 0.0f) {
+        const float s = 2.0f * sqrtf(1.0f + trace);
+        return (quaternion){(y.z - z.y) / s, (z.x - x.z) / s, (x.y - y.x) / s, 0.25f * s};
+    }
+    if (x.x > y.y && x.x > z.z) {
+        const float s = 2.0f * sqrtf(1.0f + x.x - y.y - z.z);
+        return (quaternion){0.25f * s, (y.x + x.y) / s, (z.x + x.z) / s, (y.z - z.y) / s};
+    }
+    if (y.y > z.z) {
+        const float s = 2.0f * sqrtf(1.0f + y.y - x.x - z.z);
+        return (quaternion){(y.x + x.y) / s, 0.25f * s, (z.y + y.z) / s, (z.x - x.z) / s};
+    }
+    const float s = 2.0f * sqrtf(1.0f + z.z - x.x - y.y);
+    return (quaternion){(z.x + x.z) / s, (z.y + y.z) / s, 0.25f * s, (x.y - y.x) / s};
+}
+
+/* The shorter way round. */
+static quaternion slerp(quaternion a, quaternion b, float share)
+{
+    float cosine = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+    const float sign = cosine < 0.0f ? -1.0f : 1.0f;
+    cosine = ppmi_min(fabsf(cosine), 1.0f);
+    float from = 1.0f - share, to = share;
+    if (cosine < 0.9999f) { /* else the chord is the arc, to rounding */
+        const float angle = acosf(cosine);
+        from = sinf(from * angle) / sinf(angle);
+        to = sinf(to * angle) / sinf(angle);
+    }
+    to *= sign;
+    const quaternion q = {from * a.x + to * b.x, from * a.y + to * b.y, from * a.z + to * b.z,
+                          from * a.w + to * b.w};
+    const float scale = 1.0f / sqrtf(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    return (quaternion){q.x * scale, q.y * scale, q.z * scale, q.w * scale};
+}
+
+ppmi_camera_view ppmi_camera_view_at(const ppmi_camera_view *view, float time)
+{
+    ppmi_camera_view result = *view;
+    if (view->motion_steps <= 1) return result;
+    const ppmi_motion_place at = ppmi_motion_at(view->motion_steps, time);
+    const ppmi_camera_pose *a = &view->motion[at.step], *b = a + 1;
+    const quaternion q = slerp(turn_of(a->right, a->up, vec3_neg(a->forward)),
+                               turn_of(b->right, b->up, vec3_neg(b->forward)), at.share);
+    const ppmi_vec3 right = vec3(1.0f - 2.0f * (q.y * q.y + q.z * q.z),
+                                 2.0f * (q.x * q.y + q.w * q.z), 2.0f * (q.x * q.z - q.w * q.y));
+    const ppmi_vec3 up = vec3(2.0f * (q.x * q.y - q.w * q.z), 1.0f - 2.0f * (q.x * q.x + q.z * q.z),
+                              2.0f * (q.y * q.z + q.w * q.x));
+    result.origin = vec3_lerp(a->origin, b->origin, at.share);
+    result.forward = vec3_neg(vec3_cross(right, up));
+    result.right = vec3_scale(right, vec3_length(view->right));
+    result.up = vec3_scale(up, vec3_length(view->up));
+    result.lens_right = vec3_scale(right, vec3_length(view->lens_right));
+    result.lens_up = vec3_scale(up, vec3_length(view->lens_up));
+    return result;
+}
+
+/* ---- rays ------------------------------------------------------------------------------------ */
 
 float ppmi_camera_view_focal_length(const ppmi_camera_view *view)
 {

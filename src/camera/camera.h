@@ -21,12 +21,19 @@ typedef struct ppmi_camera_view {
     float base_width;              /* orthographic: width of a pixel, metres */
     bool is_perspective;
     bool has_lens;
+    uint32_t motion_steps;          /* 1: at rest, and all above is what it is at the opening */
+    const ppmi_camera_pose *motion; /* the camera's */
 } ppmi_camera_view;
 
 /* The vertical extent is the camera's; the horizontal follows the aspect of the image. The view is
  * that of a pinhole, all in focus. */
 void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t height,
                            ppmi_camera_view *out_view);
+
+/* The view at a time within the shutter: between motion steps the place moves on a straight line,
+ * and the camera turns evenly about one axis (Shoemake 1985, "Animating Rotation with Quaternion
+ * Curves"). */
+ppmi_camera_view ppmi_camera_view_at(const ppmi_camera_view *view, float time);
 
 /* Focal length, metres, that gives a view its angle on a sensor of PPMI_SENSOR_SIDE_M. Perspective
  * only. */

@@ -73,7 +73,7 @@ static int render_and_record(const cli_sequence *s, const picture_task *task, ru
         if (result == EXIT_DONE) result = written;
         state->rendered++;
     }
-    state->is_interrupted = done.is_stopped;
+    state->is_interrupted = signals_stop_requested();
     if (task->label && state->left > 0) {
         signals_leave_picture();
     } else {
@@ -155,7 +155,7 @@ static int say_how_it_ended(const cli_sequence *s, const run_state *state, int r
     const unsigned long long rendered = state->rendered, skipped = state->skipped;
     const size_t count = pictures_count(s->pictures);
     const bool is_complete = rendered + skipped == count;
-    if (state->is_interrupted && !is_complete) {
+    if (state->is_interrupted && !is_complete && result == EXIT_DONE) {
         console_always(s->console, "%llu of %zu pictures are there", rendered + skipped, count);
         return EXIT_SIGNAL;
     }

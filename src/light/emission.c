@@ -3,12 +3,11 @@
 #include "light/tables.h"
 #include "math/sampling.h"
 
-static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, const float u[4],
-                          ppmi_emission *emission)
+static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, float time,
+                          const float u[4], ppmi_emission *emission)
 {
-    const ppmi_vec2 at = ppmi_sample_triangle(u[0], u[1]);
     ppmi_surface surface;
-    ppmi_emitter_surface(lights, e, at.x, at.y, &surface);
+    const float area = ppmi_emitter_sample(lights, e, u[0], u[1], time, &surface);
     float side = 1.0f, u_direction = u[2];
     if (e->sides == 2) {
         side = u_direction < 0.5f ? 1.0f : -1.0f;
@@ -20,7 +19,7 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, cons
         ppmi_frame_to_world(&frame, ppmi_sample_cosine_hemisphere(u_direction, u[3])));
     emission->ray = ppmi_surface_ray(&surface, direction);
     const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, n);
-    emission->power = vec3_scale(radiance, PPMI_PI * e->area * (float)e->sides);
+    emission->power = vec3_scale(radiance, PPMI_PI * area * (float)e->sides);
     return true;
 }
 
@@ -115,8 +114,8 @@ uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t gr
     return singles + (uint32_t)((uint64_t)i * (groups - singles) / triangles);
 }
 
-bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
-                      ppmi_emission *out_emission)
+bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, const float u[4],
+                         ppmi_emission *out_emission)
 {
     if (lights->count == 0) return false;
     double rest;
@@ -125,7 +124,7 @@ bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4]
     const float probability = ppmi_alias_probability(&lights->by_power, i);
     bool emitted = true;
     if (e->kind == PPMI_EMITTER_TRIANGLE) {
-        emitted = emit_triangle(lights, e, u, out_emission);
+        emitted = emit_triangle(lights, e, time, u, out_emission);
     } else if (e->kind == PPMI_EMITTER_PUNCTUAL) {
         emitted = emit_punctual(lights, &lights->scene->punctuals[e->triangle], u, out_emission);
     } else if (e->kind == PPMI_EMITTER_SUN) {
@@ -134,6 +133,7 @@ bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4]
         emitted = emit_environment(lights, rest, u, out_emission);
     }
     if (!emitted || !(probability > 0.0f)) return false;
+    out_emission->ray.time = time;
     out_emission->power = vec3_scale(out_emission->power, 1.0f / probability);
     return !vec3_is_black(out_emission->power);
 }

@@ -1,5 +1,6 @@
 /* Light sampling: what arrives at a point from one light that is drawn, and how likely it was to be
  * drawn. */
+#include "accel/round.h"
 #include "light/tables.h"
 #include "math/sampling.h"
 
@@ -41,23 +42,38 @@ static bool sample_punctual(const ppmi_punctual *light, ppmi_vec3 position,
     return scale > 0.0f;
 }
 
-static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, ppmi_vec3 position,
-                            float u, float v, ppmi_light_sample *sample)
+float ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
+                          float time, ppmi_surface *out_surface)
 {
-    const ppmi_vec2 at = ppmi_sample_triangle(u, v);
+    ppmi_vec2 at = ppmi_sample_triangle(u, v);
+    if (e->has_own_area) {
+        const uint32_t mesh = lights->scene->instances[e->instance].mesh;
+        const ppmi_primitive *primitive = &lights->scene->meshes[mesh].primitives[e->primitive];
+        if (primitive->kind != PPM_PRIMITIVE_TRIANGLES) {
+            const ppmi_round round = ppmi_round_of(primitive, e->triangle, time);
+            ppmi_round_sample(&round, u, v, &at.x, &at.y);
+        }
+    }
+    ppmi_emitter_surface(lights, e, at.x, at.y, time, out_surface);
+    return ppmi_emitter_area(e, out_surface);
+}
+
+static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, ppmi_vec3 position,
+                            float time, float u, float v, ppmi_light_sample *sample)
+{
     ppmi_surface surface;
-    ppmi_emitter_surface(lights, e, at.x, at.y, &surface);
+    const float area = ppmi_emitter_sample(lights, e, u, v, time, &surface);
     const ppmi_vec3 to_light = vec3_sub(surface.position, position);
     const float distance2 = vec3_length2(to_light);
     if (!(distance2 > 0.0f)) return false;
     const float distance = sqrtf(distance2);
     sample->wi = vec3_scale(to_light, 1.0f / distance);
     const float cosine = fabsf(vec3_dot(sample->wi, surface.ng));
-    if (!(cosine > 1e-6f)) return false;
+    if (!(cosine > 1e-6f) || !(area > 0.0f)) return false;
     sample->radiance = ppmi_emitter_radiance(lights, &surface, vec3_neg(sample->wi));
     const float side = vec3_dot(sample->wi, surface.ng) < 0.0f ? 1.0f : -1.0f;
     sample->target = vec3_mad(surface.position, surface.ng, side * surface.error);
-    sample->pdf *= distance2 / (cosine * e->area);
+    sample->pdf *= distance2 / (cosine * area);
     return !vec3_is_black(sample->radiance);
 }
 
@@ -125,8 +141,8 @@ static bool sample_sun(const ppmi_lights *lights, const ppmi_sun *sun, ppmi_vec3
 
 /* Draws from a class of finite choices; first is the class's first emitter. */
 static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table, uint32_t first,
-                             ppmi_vec3 position, ppmi_vec3 n, double u_pick, float u, float v,
-                             ppmi_light_sample *sample)
+                             ppmi_vec3 position, ppmi_vec3 n, float time, double u_pick, float u,
+                             float v, ppmi_light_sample *sample)
 {
     const uint32_t i = ppmi_alias_sample(table, u_pick, NULL);
     const ppmi_emitter *e = &lights->emitters[first + i];
@@ -138,11 +154,11 @@ static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table,
     if (e->kind == PPMI_EMITTER_SUN) {
         return sample_sun(lights, &lights->suns[e->primitive], n, u, v, sample);
     }
-    return sample_triangle(lights, e, position, u, v, sample);
+    return sample_triangle(lights, e, position, time, u, v, sample);
 }
 
-bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
-                        float u, float v, ppmi_light_sample *out_sample)
+bool ppmi_lights_sample_at(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, float time,
+                           double u_pick, float u, float v, ppmi_light_sample *out_sample)
 {
     if (lights->count == 0) return false;
     const double share = (double)lights->class_share;
@@ -156,13 +172,13 @@ bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3
     if (lights->directional_count > 0) {
         if (u_pick < share || lights->near_count == 0) {
             return sample_by_weight(lights, &lights->directionals, lights->near_count, position, n,
-                                    u_pick / share, u, v, out_sample);
+                                    time, u_pick / share, u, v, out_sample);
         }
         u_pick -= share;
     }
     if (lights->near_count == 0) return false;
-    return sample_by_weight(lights, &lights->near_lights, 0, position, n, u_pick / share, u, v,
-                            out_sample);
+    return sample_by_weight(lights, &lights->near_lights, 0, position, n, time, u_pick / share, u,
+                            v, out_sample);
 }
 
 float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
@@ -173,7 +189,7 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
     if (first == PPMI_NO_EMITTER) return 0.0f;
     const uint32_t i = first + hit->triangle;
     const float cosine = fabsf(vec3_dot(wi, surface->ng));
-    const float area = lights->emitters[i].area;
+    const float area = ppmi_emitter_area(&lights->emitters[i], surface);
     if (!(cosine > 1e-6f) || !(area > 0.0f)) return 0.0f;
     return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * distance *
            distance / (cosine * area);

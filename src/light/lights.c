@@ -11,6 +11,22 @@ static const ppmi_primitive *emitter_primitive(const ppm_scene *scene, const ppm
     return &scene->meshes[scene->instances[e->instance].mesh].primitives[e->primitive];
 }
 
+/* The largest at any step: something that opens like a fan must be sampled while it is open. */
+static float area_over_shutter(const ppmi_lights *lights, const ppmi_emitter *e)
+{
+    const ppmi_instance *instance = &lights->scene->instances[e->instance];
+    const uint32_t vertices = emitter_primitive(lights->scene, e)->motion_steps;
+    const uint32_t steps = vertices > instance->motion_steps ? vertices : instance->motion_steps;
+    float area = 0.0f;
+    for (uint32_t i = 0; i < steps; i++) {
+        const float time = steps > 1 ? (float)i / (float)(steps - 1) : 0.0f;
+        ppmi_surface surface;
+        ppmi_emitter_surface(lights, e, 0.3f, 0.3f, time, &surface);
+        area = ppmi_max(area, ppmi_surface_area(&surface));
+    }
+    return area;
+}
+
 static float triangle_area(const ppm_scene *scene, const ppmi_emitter *e)
 {
     const ppmi_primitive *primitive = emitter_primitive(scene, e);
@@ -38,7 +54,7 @@ static float triangle_power(const ppmi_lights *lights, const ppmi_emitter *e)
         float sum = 0.0f;
         for (int i = 0; i < 4; i++) {
             ppmi_surface surface;
-            ppmi_emitter_surface(lights, e, points[i][0], points[i][1], &surface);
+            ppmi_emitter_surface(lights, e, points[i][0], points[i][1], 0.0f, &surface);
             sum += vec3_mean(ppmi_surface_emission(lights->scene, &surface, surface.ng));
         }
         mean = mean * floor_share + 0.25f * sum;
@@ -99,7 +115,7 @@ static void count_emitters(const ppm_scene *scene, uint64_t *out_triangles, uint
         *out_slots += mesh->primitive_count;
         for (uint32_t k = 0; k < mesh->primitive_count; k++) {
             if (primitive_emits(scene, &scene->instances[i], &mesh->primitives[k])) {
-                *out_triangles += mesh->primitives[k].triangle_count;
+                *out_triangles += mesh->primitives[k].element_count;
             }
         }
     }
@@ -108,15 +124,22 @@ static void count_emitters(const ppm_scene *scene, uint64_t *out_triangles, uint
 static void add_triangles(ppmi_lights *lights, uint32_t instance, uint32_t primitive_index,
                           const ppmi_primitive *primitive)
 {
-    const bool both = lights->scene->materials[primitive->material].desc.double_sided != 0;
-    for (uint32_t t = 0; t < primitive->triangle_count; t++) {
+    const ppmi_material *material = &lights->scene->materials[primitive->material];
+    const bool is_round = primitive->kind != PPM_PRIMITIVE_TRIANGLES;
+    /* what shines inwards of something round and opaque stays there */
+    const bool both = material->desc.double_sided != 0 &&
+                      (!is_round || material->has_alpha || material->desc.transmission > 0.0f);
+    const bool moves =
+        primitive->motion_steps > 1 || lights->scene->instances[instance].motion != NULL;
+    for (uint32_t t = 0; t < primitive->element_count; t++) {
         ppmi_emitter *e = &lights->emitters[lights->count++];
         *e = (ppmi_emitter){.instance = instance,
                             .primitive = primitive_index,
                             .triangle = t,
                             .kind = PPMI_EMITTER_TRIANGLE,
-                            .sides = both ? 2 : 1};
-        e->area = triangle_area(lights->scene, e);
+                            .sides = both ? 2 : 1,
+                            .has_own_area = is_round || moves};
+        e->area = e->has_own_area ? area_over_shutter(lights, e) : triangle_area(lights->scene, e);
     }
 }
 

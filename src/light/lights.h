@@ -28,10 +28,18 @@ typedef struct ppmi_light_sample {
 } ppmi_light_sample;
 
 /* Samples one light for a surface at position with shading normal n (on the side that receives), or
- * for a point in a medium: n is then 0, and light from every side counts. False when nothing
- * arrives. */
-bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, double u_pick,
-                        float u, float v, ppmi_light_sample *out_sample);
+ * for a point in a medium: n is then 0, and light from every side counts. time is within the
+ * shutter. False when nothing arrives. */
+bool ppmi_lights_sample_at(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, float time,
+                           double u_pick, float u, float v, ppmi_light_sample *out_sample);
+
+/* The same as the shutter opens. */
+static inline bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n,
+                                      double u_pick, float u, float v,
+                                      ppmi_light_sample *out_sample)
+{
+    return ppmi_lights_sample_at(lights, position, n, 0.0f, u_pick, u, v, out_sample);
+}
 
 /* Density with which ppmi_lights_sample, at a point from, draws the emissive surface (on it, at
  * distance along wi) or far light in direction wi: the environment or any directional light that
@@ -59,8 +67,16 @@ typedef struct ppmi_emission {
  */
 uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups);
 
-/* u: four numbers, stratified where possible. False for a photon that carries nothing. */
-bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
-                      ppmi_emission *out_emission);
+/* u: four numbers, stratified where possible; time: within the shutter. False for a photon that
+ * carries nothing. */
+bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, const float u[4],
+                         ppmi_emission *out_emission);
+
+/* The same as the shutter opens. */
+static inline bool ppmi_lights_emit(const ppmi_lights *lights, double u_pick, const float u[4],
+                                    ppmi_emission *out_emission)
+{
+    return ppmi_lights_emit_at(lights, 0.0f, u_pick, u, out_emission);
+}
 
 #endif

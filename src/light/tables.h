@@ -15,13 +15,15 @@ typedef enum ppmi_emitter_kind {
     PPMI_EMITTER_ENVIRONMENT
 } ppmi_emitter_kind;
 
-/* One light. For triangles instance, primitive, triangle; for punctual lights triangle is the index
- * among them, for suns that among the suns. */
+/* One light. For triangles, and points and lines of meshes (kind TRIANGLE too), instance,
+ * primitive, triangle; for punctual lights triangle is the index among them, for suns that among
+ * the suns. */
 typedef struct ppmi_emitter {
     uint32_t instance, primitive, triangle;
     uint16_t kind; /* ppmi_emitter_kind */
-    uint16_t sides;
-    float area; /* world, of triangles */
+    uint8_t sides;
+    bool has_own_area; /* area depends on the place or the time */
+    float area;        /* world, of triangles; else about that */
 } ppmi_emitter;
 
 struct ppmi_lights {
@@ -45,16 +47,28 @@ struct ppmi_lights {
                                 PPMI_NO_EMITTER */
 };
 
-/* The surface at barycentric u, v of an emissive triangle. */
+/* The surface at a place of an emissive triangle, point or line (u and v as in ppmi_hit), at a time
+ * within the shutter. */
 static inline void ppmi_emitter_surface(const ppmi_lights *lights, const ppmi_emitter *e, float u,
-                                        float v, ppmi_surface *out_surface)
+                                        float v, float time, ppmi_surface *out_surface)
 {
     const ppmi_hit hit = {.instance = e->instance,
                           .primitive = e->primitive,
                           .triangle = e->triangle,
                           .u = u,
-                          .v = v};
+                          .v = v,
+                          .time = time};
     ppmi_surface_from_hit(lights->scene, &hit, out_surface);
+}
+
+/* Draws a place of it; 1 over the result is the density by area. */
+float ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
+                          float time, ppmi_surface *out_surface);
+
+/* That area, at a place that has been met. */
+static inline float ppmi_emitter_area(const ppmi_emitter *e, const ppmi_surface *surface)
+{
+    return e->has_own_area ? ppmi_surface_area(surface) : e->area;
 }
 
 /* Emission of such a surface, as far as it is opaque: rays meet a surface with alpha as often as it

@@ -104,7 +104,10 @@ static ppmi_emission_sample start_photon(const ppmi_photon_walk *walk, ppmi_walk
     ppmi_emission_sample sample = {.pick = ppmi_sobol1((uint32_t)index, 0, seed)};
     ppmi_walker_start(walker, ppmi_rng_start(walk->seed, PPMI_STREAM_PHOTON, index), seed,
                       (uint32_t)index, 0, STRATIFIED_SETS);
-    if (walk->shutter_is_open) walker->time = (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
+    if (walk->shutter_is_open) {
+        walker->time =
+            walk->has_one_time ? walk->time : (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
+    }
     for (int k = 0; k < 4; k++)
         sample.u[k] = ppmi_walker_float(walker);
     return sample;
@@ -125,9 +128,8 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
         ppmi_emission_sample sample = start_photon(walk, &walker, i);
         const float density = walk->guide ? ppmi_guide_warp(walk->guide, lights, &sample) : 1.0f;
         ppmi_emission emission;
-        if (!ppmi_lights_emit(lights, sample.pick, sample.u, &emission)) continue;
+        if (!ppmi_lights_emit_at(lights, walker.time, sample.pick, sample.u, &emission)) continue;
         emission.power = vec3_scale(emission.power, 1.0f / density);
-        emission.ray.time = walker.time;
         if (!walk_photon(context, walk, &walker, emission, i, lists)) return false;
     }
     *rays += walker.rays;

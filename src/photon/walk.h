@@ -17,7 +17,9 @@ typedef struct ppmi_photon_walk {
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
                              a light to light sampling, 0 keeps it */
     const ppmi_photon_guide *guide; /* where to send photons; NULL: evenly, by power */
-    bool shutter_is_open;           /* each photon draws a time within it */
+    bool shutter_is_open;           /* each photon has a time within it, */
+    bool has_one_time;              /* this one for all, */
+    float time;                     /* or else its own */
     uint32_t threads;
     const atomic_bool *cancel;
 } ppmi_photon_walk;

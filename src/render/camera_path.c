@@ -1,11 +1,19 @@
 /* The start of camera paths, for all integrators. */
 #include "render/integrator.h"
+#include "transport/solid.h"
 
 /* Dimensions that are stratified over the passes of a pixel: place in the pixel and on the lens,
  * then the first vertices' lights and lobes. The place on the lens and the time are drawn only if
  * they matter: a pinhole's paths have the rest of the first set for their vertices, and a lens gets
  * a set more. Time has a set of its own, beyond those of the path. */
 enum { STRATIFIED_SETS = 4, TIME_SET = 64 };
+
+/* The pilot's photons stand for all times: their pass is of the middle. */
+float ppmi_time_of_pass(const ppmi_job *job, uint64_t pass)
+{
+    if (pass >= PPMI_PILOT_PASS) return 0.5f;
+    return (float)ppmi_sobol1((uint32_t)pass, TIME_SET, ppmi_hash64(job->options->seed));
+}
 
 ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker, uint32_t x,
                                        uint32_t y, uint64_t pass)
@@ -28,11 +36,15 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
         const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
         lens = ppmi_sample_disk(u, v);
     }
-    ppmi_camera_ray result =
-        ppmi_camera_view_lens_ray(&job->view, (float)x + (0.5f + dx), (float)y + (0.5f + dy), lens);
-    if (job->options->shutter_close > job->options->shutter_open) {
-        walker->time = (float)ppmi_sobol1((uint32_t)pass, TIME_SET, seed);
-        result.ray.time = walker->time;
+    const float px = (float)x + (0.5f + dx), py = (float)y + (0.5f + dy);
+    if (!ppmi_shutter_is_open(job)) return ppmi_camera_view_lens_ray(&job->view, px, py, lens);
+    walker->time = job->pass_has_one_time ? ppmi_time_of_pass(job, pass)
+                                          : (float)ppmi_sobol1((uint32_t)pass, TIME_SET, seed);
+    const ppmi_camera_view view = ppmi_camera_view_at(&job->view, walker->time);
+    if (job->around_camera_changes) {
+        walker->interior = ppmi_solids_around_at(&job->world, view.origin, walker->time);
     }
+    ppmi_camera_ray result = ppmi_camera_view_lens_ray(&view, px, py, lens);
+    result.ray.time = walker->time;
     return result;
 }

@@ -30,7 +30,9 @@ typedef struct ppmi_job {
     ppmi_camera_view view; /* of the whole picture */
     ppmi_pixel_filter filter;
     ppmi_film film;
-    ppmi_interior around_camera; /* solids that it stands in */
+    ppmi_interior around_camera; /* solids that it stands in, */
+    bool around_camera_changes;  /* or that have to be looked for at each path's time */
+    bool pass_has_one_time;      /* see ppmi_time_of_pass */
     const atomic_bool *cancel;
 } ppmi_job;
 
@@ -49,6 +51,9 @@ typedef struct ppmi_integrator {
 extern const ppmi_integrator ppmi_integrator_sppm;
 extern const ppmi_integrator ppmi_integrator_ppm;
 extern const ppmi_integrator ppmi_integrator_path;
+
+/* The pilot's paths: a pass number that no pass reaches. */
+#define PPMI_PILOT_PASS (UINT64_MAX >> 24)
 
 /* Images are worked on in tiles of this side, which threads take one by one. */
 enum { PPMI_TILE = 16, PPMI_TILE_PIXELS = PPMI_TILE * PPMI_TILE };
@@ -71,6 +76,17 @@ static inline ppmi_tile ppmi_tile_at(const ppmi_film *film, uint32_t index)
     return (ppmi_tile){x0, y0, x1 < film->width ? x1 : film->width,
                        y1 < film->height ? y1 : film->height};
 }
+
+static inline bool ppmi_shutter_is_open(const ppmi_job *job)
+{
+    return job->options->shutter_close > job->options->shutter_open;
+}
+
+/* Photons light eye paths of their own time only: where surfaces move, all photons and eye paths of
+ * a photon mapper's pass have one time, and passes spread evenly over the shutter, whatever their
+ * number. (Photons that carry times and are gathered across them are blurred where a moving surface
+ * gathers them: Cammarano and Jensen 2002, "Time Dependent Photon Mapping".) */
+float ppmi_time_of_pass(const ppmi_job *job, uint64_t pass);
 
 /* Starts the camera path of a pixel in a pass: the walker's numbers and a ray through a point that
  * is drawn from the pixel's filter, a point of the lens, and a time within the shutter. The paths

@@ -75,7 +75,9 @@ static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *pho
         .max_depth = job->options->max_depth,
         .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
         .guide = photons->has_guide ? photons->guide : NULL,
-        .shutter_is_open = job->options->shutter_close > job->options->shutter_open,
+        .shutter_is_open = ppmi_shutter_is_open(job),
+        .has_one_time = job->pass_has_one_time,
+        .time = photons->time,
         .threads = job->options->threads,
         .cancel = job->cancel,
     };

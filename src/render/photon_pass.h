@@ -7,15 +7,13 @@
 #include "photon/statistics.h"
 #include "render/integrator.h"
 
-/* The pilot's paths: a pass number that no pass reaches. */
-#define PPMI_PILOT_PASS (UINT64_MAX >> 24)
-
 /* Zero it to begin with. */
 typedef struct ppmi_photon_pass {
     ppmi_photon_map map; /* of the latest pass */
     ppmi_photon_guide *guide;
     bool has_guide;     /* it has been learnt */
     uint64_t per_pass;  /* photons to emit */
+    float time;         /* of the eye paths that they are for, where passes have one time */
     float first_radius; /* typical small one, metres */
     float largest_radius;
 } ppmi_photon_pass;

@@ -215,6 +215,7 @@ static ppm_status begin_epoch(const ppmi_job *job, ppm_state *state, ppm_render_
         state->epoch++;
     }
     free_points(job, state);
+    state->photons.time = ppmi_time_of_pass(job, state->epoch);
     const ppm_status status = eye_pass(job, state, stats);
     if (status != PPM_STATUS_OK) {
         free_points(job, state);

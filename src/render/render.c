@@ -273,6 +273,29 @@ static const ppmi_integrator *integrator_of(int32_t number)
     }
 }
 
+static bool has_solids(const ppm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].is_solid_glass) return true;
+    }
+    return false;
+}
+
+static void set_up_shutter(ppm_render *render)
+{
+    ppmi_job *job = &render->job;
+    if (!ppmi_shutter_is_open(job)) return;
+    const bool moves = ppmi_scene_moves(render->scene);
+    job->pass_has_one_time = moves && job->options->integrator != PPM_INTEGRATOR_PATH;
+    job->around_camera_changes = (moves || job->view.motion_steps > 1) && has_solids(render->scene);
+    if (moves && job->options->integrator == PPM_INTEGRATOR_PPM &&
+        job->options->photons_per_epoch == 0) {
+        ppmi_log(render->context, PPM_LOG_WARNING,
+                 "the integrator ppm without epochs shows one moment of what moves: no motion "
+                 "blur");
+    }
+}
+
 /* The view with its lens; fills in the distance that is in focus where nobody said it. */
 static ppm_status set_up_camera(ppm_render *render)
 {
@@ -282,6 +305,7 @@ static ppm_status set_up_camera(ppm_render *render)
                           options->height, view);
     ppmi_pixel_filter_init(&render->job.filter, options->pixel_filter, options->pixel_filter_width);
     render->job.around_camera = ppmi_solids_around(&render->job.world, view->origin);
+    set_up_shutter(render);
     if (isinf(options->aperture_f_number)) return PPM_STATUS_OK;
     if (options->focus_distance_m == 0.0f) {
         if (!ppmi_distance_in_the_middle(&render->job.world, view, &options->focus_distance_m)) {

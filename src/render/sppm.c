@@ -213,6 +213,7 @@ static ppm_status pilot_tiles(const ppmi_job *job, sppm_state *state, pilot_step
 static ppm_status pilot_passes(const ppmi_job *job, sppm_state *state, ppm_render_stats *stats)
 {
     ppm_status status = PPM_STATUS_OK;
+    state->photons.time = ppmi_time_of_pass(job, PPMI_PILOT_PASS);
     if (ppmi_photon_pass_wants_guide(job, &state->photons)) {
         status = ppmi_photon_pass_begin_guide(job, &state->photons, stats);
         if (status == PPM_STATUS_OK) status = pilot_tiles(job, state, mark_photons);
@@ -343,6 +344,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     }
     /* the expected course of the radius: i^((alpha - 1) / 2) */
     const float shrunk = powf((float)(pass + 1), 0.5f * (job->options->alpha - 1.0f));
+    state->photons.time = ppmi_time_of_pass(job, pass);
     status = ppmi_photon_pass_run(job, &state->photons, pass, shrunk, &added);
     if (status != PPM_STATUS_OK) return status;
     state->memoryless_extent = memoryless_extent(job->options->alpha, pass);

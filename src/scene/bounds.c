@@ -91,3 +91,21 @@ bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *ou
     }
     return out_min->x <= out_max->x;
 }
+
+static bool mesh_moves(const ppmi_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        if (mesh->primitives[i].motion_steps > 1) return true;
+    }
+    return false;
+}
+
+bool ppmi_scene_moves(const ppm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const ppmi_instance *instance = &scene->instances[i];
+        if (!ppmi_instance_is_there(instance)) continue;
+        if (instance->motion || mesh_moves(&scene->meshes[instance->mesh])) return true;
+    }
+    return false;
+}

@@ -1,4 +1,6 @@
 /* Cameras and punctual lights: checked and turned into unit vectors. */
+#include <string.h>
+
 #include "scene/scene.h"
 
 static ppm_status fail_memory(ppm_scene *scene)
@@ -19,6 +21,54 @@ static bool unit_axes(const ppmi_transform *m, ppmi_vec3 *right, ppmi_vec3 *up, 
     return vec3_length2(*back) > 0.5f && vec3_length2(*right) > 0.5f;
 }
 
+/* A pose from a matrix; false for singular ones. */
+static bool load_pose(const float matrix[16], ppmi_camera_pose *pose)
+{
+    const ppmi_transform m = ppmi_transform_load(matrix);
+    ppmi_vec3 back;
+    if (!unit_axes(&m, &pose->right, &pose->up, &back)) return false;
+    pose->forward = vec3_neg(back);
+    pose->origin = pose->given_origin = m.origin;
+    return true;
+}
+
+/* Fills in how the camera moves, and where it is at the opening. Poses that are all alike are no
+ * motion. */
+static ppm_status load_motion(ppm_scene *scene, const ppm_camera_desc *desc, const char *name,
+                              ppmi_camera *camera)
+{
+    const bool has_motion = desc->motion && desc->motion_steps > 0;
+    const uint32_t steps = has_motion ? desc->motion_steps : 1;
+    const float *matrices = has_motion ? desc->motion : desc->transform;
+    if (desc->motion_steps > PPM_MAX_MOTION_STEPS || (desc->motion_steps > 1 && !desc->motion)) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "camera '%s': %u motion steps %s; at most %d, and a transform for each",
+                         name, desc->motion_steps, desc->motion ? "given" : "without transforms",
+                         PPM_MAX_MOTION_STEPS);
+    }
+    ppmi_camera_pose *poses = ppmi_alloc(scene->context, steps, sizeof *poses);
+    if (!poses) return fail_memory(scene);
+    bool is_at_rest = true;
+    for (uint32_t i = 0; i < steps; i++) {
+        const float *matrix = matrices + 16 * (size_t)i;
+        if (!load_pose(matrix, &poses[i])) {
+            ppmi_free(scene->context, poses);
+            return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                             "camera '%s': angle, size, aspect, lens or transform out of range",
+                             name);
+        }
+        is_at_rest = is_at_rest && memcmp(matrices, matrix, 16 * sizeof *matrix) == 0;
+    }
+    camera->origin = camera->given_origin = poses[0].origin;
+    camera->right = poses[0].right;
+    camera->up = poses[0].up;
+    camera->forward = poses[0].forward;
+    camera->motion_steps = is_at_rest ? 1 : steps;
+    camera->motion = is_at_rest ? NULL : poses;
+    if (is_at_rest) ppmi_free(scene->context, poses);
+    return PPM_STATUS_OK;
+}
+
 static bool camera_is_valid(const ppm_camera_desc *desc)
 {
     if (desc->kind == PPM_CAMERA_PERSPECTIVE) {
@@ -33,15 +83,13 @@ static bool camera_is_valid(const ppm_camera_desc *desc)
 ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
                                 ppm_camera_id *out_id)
 {
-    const ppm_status status = ppmi_scene_check_open(scene);
+    ppm_status status = ppmi_scene_check_open(scene);
     if (status != PPM_STATUS_OK) return status;
     if (!desc || !out_id || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
     const char *name = desc->name ? desc->name : "";
-    const ppmi_transform to_world = ppmi_transform_load(desc->transform);
-    ppmi_vec3 right, up, back;
     const bool lens_is_valid = desc->f_number >= 0.0f && desc->focus_distance_m >= 0.0f &&
                                isfinite(desc->focus_distance_m);
-    if (!lens_is_valid || !camera_is_valid(desc) || !unit_axes(&to_world, &right, &up, &back)) {
+    if (!lens_is_valid || !camera_is_valid(desc)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "camera '%s': angle, size, aspect, lens or transform out of range", name);
     }
@@ -49,18 +97,9 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         ppmi_scene_grow(scene->context, scene->cameras, scene->camera_count, sizeof *cameras);
     if (!cameras) return PPM_STATUS_OUT_OF_MEMORY;
     scene->cameras = cameras;
-    char *name_copy = ppmi_string_copy(scene->context, name);
-    if (!name_copy) return fail_memory(scene);
     const bool is_orthographic = desc->kind == PPM_CAMERA_ORTHOGRAPHIC;
-    cameras[scene->camera_count] = (ppmi_camera){
-        .name = name_copy,
+    ppmi_camera camera = {
         .kind = desc->kind,
-        .origin = to_world.origin,
-        .given_origin = to_world.origin,
-        .motion_steps = 1,
-        .right = right,
-        .up = up,
-        .forward = vec3_neg(back),
         .y_fov_rad = desc->y_fov_rad,
         .half_width_m = desc->half_width_m,
         .half_height_m = desc->half_height_m,
@@ -68,6 +107,14 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .f_number = desc->f_number,
         .focus_distance_m = desc->focus_distance_m,
     };
+    status = load_motion(scene, desc, name, &camera);
+    if (status != PPM_STATUS_OK) return status;
+    camera.name = ppmi_string_copy(scene->context, name);
+    if (!camera.name) {
+        ppmi_free(scene->context, camera.motion);
+        return fail_memory(scene);
+    }
+    cameras[scene->camera_count] = camera;
     *out_id = ++scene->camera_count;
     return PPM_STATUS_OK;
 }

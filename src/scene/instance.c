@@ -74,6 +74,7 @@ static bool place(ppm_scene *scene, const ppm_instance_desc *desc, ppmi_instance
     instance->to_world = ppmi_transform_load(matrices);
     instance->given_origin = instance->to_world.origin;
     instance->normals = ppmi_transform_normals(&instance->to_world);
+    instance->is_mirrored = ppmi_transform_determinant(&instance->to_world) < 0.0f;
     return true;
 }
 

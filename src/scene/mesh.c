@@ -369,7 +369,7 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
     scene->mesh_count++; /* from here ppm_scene_destroy frees what there is */
     mesh->bounds_min = vec3_splat(INFINITY);
     mesh->bounds_max = vec3_splat(-INFINITY);
-    mesh->shape_version = mesh->topology_version = 1;
+    mesh->shape_version = 1;
     mesh->name = ppmi_string_copy(scene->context, name);
     mesh->primitives =
         ppmi_alloc_zeroed(scene->context, desc->primitive_count, sizeof *mesh->primitives);
@@ -417,38 +417,27 @@ static void free_vertices(ppm_context *context, ppmi_primitive *primitive)
     ppmi_free(context, primitive->tangents);
 }
 
-/* Which elements can be hit with the new vertices. Where some could not before, or cannot now, all
- * are looked at again; out_changes: they are not the same. False when memory is out. */
-static bool choose_again(ppm_scene *scene, ppmi_primitive *primitive, mesh_faults *faults,
-                         bool *out_changes)
+/* Which elements can be hit with the new vertices, among all that were given. False when memory is
+ * out. */
+static bool choose_again(ppm_scene *scene, ppmi_primitive *primitive, mesh_faults *faults)
 {
-    const uint32_t before = primitive->element_count;
-    const size_t size = vertices_per_element(primitive->kind) * sizeof *primitive->indices;
-    const uint32_t count = primitive->given_indices ? primitive->given_count : before;
-    const uint32_t *given =
-        primitive->given_indices ? primitive->given_indices : primitive->indices;
-    uint32_t *all = ppmi_alloc(scene->context, count, size), *kept = NULL;
-    if (count > 0 && !all) return false;
-    if (count > 0) memcpy(all, given, count * size);
     if (primitive->given_indices) {
-        kept = ppmi_alloc(scene->context, count, size);
-        if (!kept) {
-            ppmi_free(scene->context, all);
-            return false;
-        }
+        keep_elements(primitive->given_indices, primitive->given_count, primitive, faults);
+        return true;
     }
-    uint32_t *old = primitive->indices;
-    if (kept) primitive->indices = kept;
-    keep_elements(all, count, primitive, faults);
-    *out_changes = primitive->element_count != before ||
-                   (before > 0 && memcmp(kept ? old : all, primitive->indices, before * size) != 0);
-    if (kept) ppmi_free(scene->context, old);
-    if (primitive->element_count < count && !primitive->given_indices) {
-        primitive->given_indices = all;
-        primitive->given_count = count;
-    } else {
-        ppmi_free(scene->context, all);
+    const uint32_t count = primitive->element_count;
+    const size_t size = vertices_per_element(primitive->kind) * sizeof *primitive->indices;
+    if (count == 0) return true;
+    uint32_t *given = ppmi_alloc(scene->context, count, size);
+    if (!given) return false;
+    memcpy(given, primitive->indices, count * size);
+    keep_elements(given, count, primitive, faults);
+    if (primitive->element_count == count) {
+        ppmi_free(scene->context, given);
+        return true;
     }
+    primitive->given_indices = given;
+    primitive->given_count = count;
     return true;
 }
 
@@ -466,15 +455,12 @@ ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_
     ppmi_primitive changed = *target;
     changed.positions = changed.normals = changed.tangents = NULL;
     mesh_faults faults = {0};
-    bool elements_change = false;
-    if (!copy_vertices(scene, desc, steps, &changed) ||
-        !choose_again(scene, &changed, &faults, &elements_change)) {
+    if (!copy_vertices(scene, desc, steps, &changed) || !choose_again(scene, &changed, &faults)) {
         free_vertices(scene->context, &changed);
         return out_of_memory(scene, mesh->name);
     }
     clean_vertices(&changed, &faults);
     free_vertices(scene->context, target);
-    if (elements_change || steps != target->motion_steps) mesh->topology_version++;
     mesh->shape_version++;
     *target = changed;
     update_bounds(mesh);

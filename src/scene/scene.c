@@ -60,6 +60,7 @@ void ppm_scene_destroy(ppm_scene *scene)
 {
     if (!scene) return;
     ppm_context *context = scene->context;
+    if (scene->accel.data) scene->accel.destroy(scene->accel.data);
     for (uint32_t i = 0; i < scene->image_count; i++) {
         ppmi_free(context, scene->images[i].u8);
         ppmi_free(context, scene->images[i].f32);

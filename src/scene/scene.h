@@ -77,6 +77,7 @@ typedef struct ppmi_instance {
     ppmi_transform to_world; /* in motion: at the opening of the shutter */
     ppmi_transform normals;  /* takes normals to normals, up to length */
     float scale;             /* longest column of to_world at any step: how much it enlarges */
+    bool is_mirrored;        /* to_world has a negative determinant: the winding is reversed */
     bool is_hidden;          /* by the caller */
     bool is_singular;        /* flat at all steps: there is nothing to see */
     uint32_t motion_steps;   /* 1: at rest */
@@ -129,6 +130,12 @@ typedef struct ppmi_environment {
     ppmi_vec3 backdrop;
 } ppmi_environment;
 
+/* What another folder keeps with the scene from session to session. */
+typedef struct ppmi_kept {
+    void *data; /* NULL: nothing */
+    void (*destroy)(void *data);
+} ppmi_kept;
+
 struct ppm_scene {
     ppm_context *context;
     float srgb_to_linear[256];
@@ -144,6 +151,7 @@ struct ppm_scene {
     ppmi_medium fog;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
     ppmi_vec3 shift;        /* what has been subtracted from all positions; see ppmi_scene_freeze */
+    ppmi_kept accel;        /* acceleration structures of the meshes */
     uint32_t session_count; /* render sessions that keep it frozen */
     bool is_frozen;
 };
@@ -156,6 +164,9 @@ void ppmi_scene_freeze(ppm_scene *scene);
 /* The end of a session: once for each freeze. The last one opens the scene for changes: all is
  * where it was given, to the bit, and an assumed environment is gone. */
 void ppmi_scene_thaw(ppm_scene *scene);
+
+/* Whether anything that is there moves while the shutter is open; the camera does not count. */
+bool ppmi_scene_moves(const ppm_scene *scene);
 
 /* World bounds of all instances that are there, over the whole shutter, in the positions as they
  * are kept; false when there is nothing. */

@@ -12,10 +12,11 @@ typedef struct ppmi_surface {
     ppmi_vec3 ns; /* shading normal, unit, on ng's side, before any normal map */
     float error;  /* bound of the distance between position and the true surface, metres */
     float u, v;   /* of the hit, for attributes */
+    float time;   /* of the hit, within the shutter */
     const ppmi_instance *instance;
     const ppmi_primitive *primitive;
     const ppmi_material *material;
-    uint32_t triangle;
+    uint32_t triangle; /* or other element */
 } ppmi_surface;
 
 void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_surface *out_surface);
@@ -34,6 +35,11 @@ bool ppmi_surface_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_ve
 /* Opacity at a hit, 0..1, by the alpha mode: without the rest of the material. */
 float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface);
 
+/* The area, world space, of an element of a moving or round shape by the density of its places: at
+ * a place that is drawn evenly over the element as the mesh has it, the density by area is 1 over
+ * this. */
+float ppmi_surface_area(const ppmi_surface *surface);
+
 /* Radiance that leaves the surface in direction wo (unit, away from it). */
 ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo);
 
@@ -46,6 +52,7 @@ static inline ppmi_ray ppmi_surface_ray(const ppmi_surface *surface, ppmi_vec3 d
         .origin = vec3_mad(surface->position, surface->ng, side * surface->error),
         .t_max = INFINITY,
         .direction = direction,
+        .time = surface->time,
     };
 }
 

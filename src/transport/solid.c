@@ -126,11 +126,12 @@ void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *v
 
 /* A solid whose first surface on the way is left there is one that the way began in. What is left
  * last is entered first. */
-ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position)
+ppmi_interior ppmi_solids_around_at(const ppmi_world *world, ppmi_vec3 position, float time)
 {
     enum { MAX_SURFACES = 256 };
     ppmi_interior around = {0}, seen = {0};
-    ppmi_ray ray = {.origin = position, .t_max = INFINITY, .direction = {0.0f, 1.0f, 0.0f}};
+    ppmi_ray ray = {
+        .origin = position, .t_max = INFINITY, .direction = {0.0f, 1.0f, 0.0f}, .time = time};
     for (int i = 0; i < MAX_SURFACES; i++) {
         ppmi_hit hit;
         if (!ppmi_accel_intersect(world->accel, &ray, &hit)) break;

@@ -16,6 +16,12 @@ void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *v
 
 /* The solids around a point, for what begins there: a camera under water. Looked for upwards, since
  * an open sheet of water has its inside below. */
-ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position);
+ppmi_interior ppmi_solids_around_at(const ppmi_world *world, ppmi_vec3 position, float time);
+
+/* The same as the shutter opens. */
+static inline ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position)
+{
+    return ppmi_solids_around_at(world, position, 0.0f);
+}
 
 #endif

@@ -57,7 +57,8 @@ static bool passes_through(ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_
 static void scatter_at(ppmi_vertex *vertex, const ppmi_medium *medium, const ppmi_ray *ray, float t)
 {
     vertex->medium = medium;
-    vertex->surface = (ppmi_surface){.position = vec3_mad(ray->origin, ray->direction, t)};
+    vertex->surface =
+        (ppmi_surface){.position = vec3_mad(ray->origin, ray->direction, t), .time = ray->time};
     vertex->distance += t;
 }
 
@@ -145,9 +146,7 @@ static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, 
             }
             return PPMI_AT_SURFACE;
         } /* a solid's surface that alpha takes away is no border */
-        const float time = ray.time;
         ray = ppmi_surface_ray(&vertex->surface, ray.direction);
-        ray.time = time;
     }
     vertex->transmittance = vec3_splat(0.0f);
     return PPMI_ESCAPED;
@@ -192,10 +191,9 @@ static float alpha_visibility(ppmi_walker *walker, ppmi_ray ray)
         ppmi_vertex vertex;
         if (!trace(walker, &ray, &vertex)) return visibility;
         visibility *= 1.0f - ppmi_surface_opacity(walker->world->scene, &vertex.surface);
-        const float left = ray.t_max - vertex.hit.t, time = ray.time;
+        const float left = ray.t_max - vertex.hit.t;
         ray = ppmi_surface_ray(&vertex.surface, ray.direction);
         ray.t_max = left;
-        ray.time = time;
         if (!(left > 0.0f)) return visibility;
     }
     return 0.0f;
@@ -252,8 +250,8 @@ ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
     const double u_pick = ppmi_walker_double(walker);
     const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
     ppmi_light_sample light;
-    if (!ppmi_lights_sample(world->lights, vertex->surface.position, ppmi_bsdf_normal(bsdf), u_pick,
-                            u, v, &light)) {
+    if (!ppmi_lights_sample_at(world->lights, vertex->surface.position, ppmi_bsdf_normal(bsdf),
+                               walker->time, u_pick, u, v, &light)) {
         return black;
     }
     const ppmi_vec3 f =
@@ -261,8 +259,7 @@ ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
     if (vec3_is_black(f)) return black;
     ppmi_vec3 weight;
     const ppmi_interior *interior = interior_towards(walker, vertex, bsdf, light.wi, &weight);
-    ppmi_ray ray = shadow_ray(&vertex->surface, &light);
-    ray.time = walker->time;
+    const ppmi_ray ray = shadow_ray(&vertex->surface, &light);
     const ppmi_vec3 visibility = ppmi_walk_visibility(walker, ray, interior);
     if (vec3_is_black(visibility)) return black;
     const float bsdf_pdf = light.is_delta ? 0.0f : ppmi_bsdf_pdf(bsdf, light.wi, PPMI_LOBE_ALL);
@@ -288,8 +285,7 @@ void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_v
 ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
                          const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput)
 {
-    ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample->wi);
-    ray.time = walker->time;
+    const ppmi_ray ray = ppmi_surface_ray(&vertex->surface, sample->wi);
     if (vertex->medium || !vertex->surface.material->is_solid_glass) return ray;
     if (sample->is_transmission) walker->interior = vertex->behind;
     if (vertex->drawn_wavelength > 0.0f && (sample->is_transmission || vertex->splits_always)) {

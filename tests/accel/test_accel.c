@@ -143,7 +143,7 @@ static void sheared_and_mirrored_boxes_are_hit_where_they_are(void **state)
         shape_place_by(test.scene,
                        shape_box(test.scene, 0, vec3_splat(-1.0f), vec3_splat(1.0f), 3, false),
                        columns);
-        mirrored += ppmi_transform_determinant(&test.scene->instances[0].to_world) < 0.0f;
+        mirrored += test.scene->instances[0].is_mirrored;
         test_world world;
         world_open(&world, &test);
         for (int i = 0; i < 500; i++) {

@@ -263,7 +263,7 @@ static void what_does_not_fit_is_refused_with_its_place(void **state)
         {"{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}",
          "{'buffer':0,'byteLength':36}", "2 components"},
         {"{'bufferView':0,'componentType':5126,'count':1,'type':'MAT3'}",
-         "{'buffer':0,'byteLength':36}", "0 components"},
+         "{'buffer':0,'byteLength':36}", "9 components"},
         {"{'bufferView':0,'componentType':5125,'count':3,'type':'VEC3'}",
          "{'buffer':0,'byteLength':36}", "componentType 5125"},
         {"{'bufferView':0,'componentType':5126,'count':0,'type':'VEC3'}",

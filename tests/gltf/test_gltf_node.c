@@ -215,16 +215,60 @@ static void instancing_repeats_the_mesh(void **state)
     assert_place(f, 1, vec3(1, 0, 0), vec3(1, 0, 5));
 }
 
-static void skins_and_animations_are_warned_about(void **state)
+static void animations_are_reported(void **state)
 {
     gltf_fixture *f = *state;
-    assert_gltf_status(f,
-                       gltf_import(f,
-                                   "{" GLTF_HEAD "'nodes':[{'mesh':0,'skin':0}],"
-                                   "'skins':[{'joints':[0]}],'animations':[{}]," GLTF_TRIANGLE "}"),
-                       PPM_STATUS_OK);
-    assert_gltf_logged(f, 'W', "ignored: skins: 1 skins");
-    assert_gltf_logged(f, 'W', "ignored: animations: 1 animations");
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}],'animations':[{}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
+    assert_gltf_logged(f, 'D', "honoured: animations: 1 animations");
+}
+
+static void a_scene_is_chosen_by_name_or_number(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char text[] =
+        "{'asset':{'version':'2.0'},'scene':0,'scenes':[{'name':'day','nodes':[0]},"
+        "{'name':'night','nodes':[1]}],"
+        "'nodes':[{'mesh':0,'name':'a'},{'mesh':0,'name':'b'}]," GLTF_TRIANGLE "}";
+    static const char *const choices[] = {"night", "1"};
+    f->options.scene = "nihgt";
+    assert_gltf_status(f, gltf_import(f, text), PPM_STATUS_INVALID_ARGUMENT);
+    assert_gltf_logged(f, 'E',
+                       "no scene 'nihgt'; did you mean 'night'?; there are 2: 'day', 'night'");
+    gltf_reset(f);
+    f->options.scene = "2";
+    assert_gltf_status(f, gltf_import(f, text), PPM_STATUS_INVALID_ARGUMENT);
+    for (size_t i = 0; i < 2; ++i) {
+        gltf_reset(f);
+        f->options.scene = choices[i];
+        assert_gltf_status(f, gltf_import(f, text), PPM_STATUS_OK);
+        assert_int_equal(f->scene->instance_count, 1);
+        assert_string_equal(f->scene->instances[0].name, "b");
+    }
+}
+
+/* KHR_node_visibility hides what hangs on a node and below it, whatever that says itself. */
+static void hidden_nodes_show_neither_meshes_nor_lights(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{'asset':{'version':'2.0'},"
+                       "'extensionsUsed':['KHR_node_visibility','KHR_lights_punctual'],"
+                       "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point'}]}},"
+                       "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':1}}],"
+                       "'nodes':[{'mesh':0,'name':'seen'},"
+                       "{'children':[2],'extensions':{'KHR_node_visibility':{'visible':false}}},"
+                       "{'mesh':0,'camera':0,'name':'below','extensions':{"
+                       "'KHR_lights_punctual':{'light':0},"
+                       "'KHR_node_visibility':{'visible':true}}}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
+    assert_int_equal(f->scene->instance_count, 1);
+    assert_string_equal(f->scene->instances[0].name, "seen");
+    assert_int_equal(f->scene->punctual_count, 0);
+    assert_int_equal(f->scene->camera_count, 1);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
@@ -245,7 +289,9 @@ int main(void)
         TEST(very_deep_hierarchies_are_walked),
         TEST(transforms_that_overflow_are_refused),
         TEST(instancing_repeats_the_mesh),
-        TEST(skins_and_animations_are_warned_about),
+        TEST(animations_are_reported),
+        TEST(a_scene_is_chosen_by_name_or_number),
+        TEST(hidden_nodes_show_neither_meshes_nor_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
