@@ -164,6 +164,25 @@ static void what_is_broken_keeps_its_place(void **state)
     ppm_asset_close(asset);
 }
 
+static void every_allocation_of_an_opening_may_fail(void **state)
+{
+    gltf_fixture *f = *state;
+    ppm_asset_close(open_text(f, SCENES));
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    ppm_asset *asset = NULL;
+    size_t n = 0;
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = ppm_asset_open(f->context, gltf_path(f, "list.gltf"), &f->options, &asset);
+        ppmi_alloc_fail_at(f->context, 0);
+        assert_true(n < 1000);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 30); /* some for each name and phrase */
+    assert_int_equal(ppm_asset_count(asset, PPM_ASSET_VARIANTS), 2);
+    ppm_asset_close(asset);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -175,6 +194,7 @@ int main(void)
         TEST(lights_are_listed_in_the_units_that_they_are_read_in),
         TEST(hierarchies_that_are_none_are_listed_all_the_same),
         TEST(what_is_broken_keeps_its_place),
+        TEST(every_allocation_of_an_opening_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

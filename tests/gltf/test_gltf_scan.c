@@ -60,6 +60,18 @@ static void members_are_those_of_the_object_itself(void **state)
     assert_int_not_equal(member(text, "list").begin, ppmi_gltf_scan_member(text, a, "list").begin);
 }
 
+static void several_members_are_found_in_one_walk(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"s", "none", "a"};
+    ppmi_gltf_span found[3];
+    ppmi_gltf_scan_members(text, ppmi_gltf_scan_root(strlen(text)), keys, 3, found);
+    assert_int_equal(found[0].begin, member(text, "s").begin);
+    assert_true(is_empty(found[1]));
+    assert_int_equal(found[2].begin, member(text, "a").begin); /* the first of two */
+    assert_int_equal(text[found[2].begin], '{');
+}
+
 static void elements_come_in_their_order(void **state)
 {
     (void)state;
@@ -95,6 +107,7 @@ int main(void)
         cmocka_unit_test(what_is_not_there_is_empty),
         cmocka_unit_test(a_cut_text_is_not_read_beyond_its_end),
         cmocka_unit_test(members_are_those_of_the_object_itself),
+        cmocka_unit_test(several_members_are_found_in_one_walk),
         cmocka_unit_test(elements_come_in_their_order),
         cmocka_unit_test(strings_are_decoded_and_cut_between_letters),
     };
