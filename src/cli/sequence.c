@@ -11,7 +11,7 @@
 
 /* How far it is. */
 typedef struct run_state {
-    size_t left;       /* pictures that are still to be rendered, by what was on disk before */
+    size_t left;       /* pictures still to be rendered, by what was on disk at the beginning */
     uint64_t rendered; /* and written */
     uint64_t skipped;  /* since their files were there */
     double seconds;    /* that the rendered ones took */
@@ -55,24 +55,31 @@ static size_t count_left(const cli_sequence *s, cli_picture *out_first)
 
 /* ---- one picture ----------------------------------------------------------------------------- */
 
+static int record(const cli_sequence *s, const picture_task *task, const ppm_render *render,
+                  const run_state *state)
+{
+    const stats_source source = {.asset = s->input->asset,
+                                 .scene = s->input->scene,
+                                 .picture = task->picture,
+                                 .outputs = s->outputs,
+                                 .render = render,
+                                 .skipped = state->skipped,
+                                 .import_s = s->input->seconds};
+    return stats_add(s->stats, s->console, &source);
+}
+
+/* A picture that could not be written has its statistics all the same. */
 static int render_and_record(const cli_sequence *s, const picture_task *task, run_state *state)
 {
     ppm_render *render = NULL;
     picture_result done = {0};
     int result = picture_prepare(task, &render);
     if (result == EXIT_DONE) result = picture_render(task, render, &done);
-    if (done.is_written) {
-        const stats_source source = {.asset = s->input->asset,
-                                     .scene = s->input->scene,
-                                     .picture = task->picture,
-                                     .outputs = s->outputs,
-                                     .render = render,
-                                     .skipped = state->skipped,
-                                     .import_s = s->input->seconds};
-        const int written = stats_add(s->stats, s->console, &source);
-        if (result == EXIT_DONE) result = written;
-        state->rendered++;
+    if (done.passes > 0 && !done.is_dropped) {
+        const int recorded = record(s, task, render, state);
+        if (result == EXIT_DONE) result = recorded;
     }
+    state->rendered += done.is_written;
     state->is_interrupted = signals_stop_requested();
     if (task->label && state->left > 0) {
         signals_leave_picture();
