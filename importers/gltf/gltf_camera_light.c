@@ -170,7 +170,7 @@ ppm_status ppmi_gltf_add_light(ppmi_gltf_reader *reader, int32_t node, const dou
     }
     if (fault) {
         ppmi_gltf_warn(reader, place, "left out: lights[%d]: %s", (int)from->light, fault);
-        return PPM_STATUS_OK;
+        return ppmi_gltf_darken_light(reader, node);
     }
     reader->tally.punctual_lights++;
     return ppmi_gltf_put_light(reader, node, &desc);

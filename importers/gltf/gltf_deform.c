@@ -142,8 +142,16 @@ static void free_primitive(ppm_context *context, ppmi_gltf_deform_primitive *p)
         free_delta(context, &p->targets[i].position);
         free_delta(context, &p->targets[i].normal);
         free_delta(context, &p->targets[i].tangent);
+        free_delta(context, &p->targets[i].color);
+        for (size_t k = 0; k < PPM_MAX_UV_SETS; ++k) {
+            free_delta(context, &p->targets[i].uvs[k]);
+        }
     }
     ppmi_free(context, p->targets);
+    ppmi_free(context, p->colors);
+    for (size_t k = 0; k < PPM_MAX_UV_SETS; ++k) {
+        ppmi_free(context, p->uvs[k]);
+    }
     ppmi_free(context, p->positions);
     ppmi_free(context, p->normals);
     ppmi_free(context, p->tangents);
@@ -204,119 +212,125 @@ static ppm_status read_values(const source *s, int32_t accessor, const char *pla
 
 /* ---- morph targets --------------------------------------------------------------------------- */
 
-static bool is_zero(const float v[3])
+static bool is_zero(const float *values, uint32_t width)
 {
-    return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f;
+    for (uint32_t i = 0; i < width; ++i) {
+        if (values[i] != 0.0f) return false;
+    }
+    return true;
 }
 
-static ppm_status keep_delta(const source *s, const float *values, const char *place,
+/* values has stride per vertex of the file, of which the first out->width count. */
+static ppm_status keep_delta(const source *s, const float *values, size_t stride, const char *place,
                              ppmi_gltf_delta *out)
 {
     const size_t vertex_count = s->geometry->vertex_count;
     uint32_t count = 0;
     for (size_t i = 0; i < vertex_count; ++i) {
-        const float *value = values + 3 * source_index(s, i);
-        if (!isfinite(value[0]) || !isfinite(value[1]) || !isfinite(value[2])) {
+        const float *value = values + stride * source_index(s, i);
+        for (uint32_t k = 0; k < out->width; ++k) {
+            if (isfinite(value[k])) continue;
             return ppmi_gltf_invalid(s->reader, place, "element %zu is not a finite number",
                                      source_index(s, i));
         }
-        count += !is_zero(value);
+        count += !is_zero(value, out->width);
     }
     if (count == 0) return PPM_STATUS_OK;
     out->vertices = ppmi_alloc(s->reader->context, count, sizeof *out->vertices);
-    out->values = ppmi_alloc(s->reader->context, count, 3 * sizeof *out->values);
+    out->values = ppmi_alloc(s->reader->context, count, out->width * sizeof *out->values);
     if (!out->vertices || !out->values) return ppmi_gltf_out_of_memory(s->reader, place);
     for (size_t i = 0; i < vertex_count; ++i) {
-        const float *value = values + 3 * source_index(s, i);
-        if (is_zero(value)) continue;
-        memcpy(out->values + 3 * (size_t)out->count, value, 3 * sizeof *value);
+        const float *value = values + stride * source_index(s, i);
+        if (is_zero(value, out->width)) continue;
+        memcpy(out->values + out->width * (size_t)out->count, value, out->width * sizeof *value);
         out->vertices[out->count++] = (uint32_t)i;
     }
     return PPM_STATUS_OK;
 }
 
-/* One attribute of a target; is_used is false where the primitive has nothing to add it to. */
-static ppm_status read_delta(const source *s, uint32_t target, const char *name, bool is_used,
+/* One attribute of a target. base is what it is added to; NULL where the primitive has none. */
+static ppm_status read_delta(const source *s, uint32_t target, const char *name,
+                             const ppmi_gltf_format *format, const float *base,
                              ppmi_gltf_delta *out)
 {
-    static const ppmi_gltf_format vec3 = {3, 3, 3, false};
     const ppmi_gltf_target *from = &s->primitive->targets[target];
     const int32_t accessor = find_attribute(from->attributes, from->attribute_count, name);
     char place[PPMI_GLTF_PLACE];
     float *values = NULL;
-    if (accessor < 0 || !is_used) return PPM_STATUS_OK;
+    if (accessor < 0 || !base) return PPM_STATUS_OK;
     ppmi_gltf_place(place, "%s.targets[%u].%s", s->place, (unsigned)target, name);
-    ppm_status status = read_values(s, accessor, place, &vec3, &values);
-    if (status == PPM_STATUS_OK) status = keep_delta(s, values, place, out);
+    ppm_status status = read_values(s, accessor, place, format, &values);
+    if (status == PPM_STATUS_OK) {
+        /* three of four where a colour has no alpha */
+        out->width = s->reader->document->accessors[accessor].component_count;
+        status = keep_delta(s, values, format->out_components, place, out);
+    }
     ppmi_free(s->reader->context, values);
     return status;
 }
 
-/* Adds what a target does to an array of width values per vertex, at once. */
-static ppm_status add_now(const source *s, uint32_t target, const char *name, double weight,
-                          const ppmi_gltf_format *format, float *array)
+static ppm_status read_target(const source *s, uint32_t index, ppmi_gltf_morph *target)
 {
-    const ppmi_gltf_target *from = &s->primitive->targets[target];
-    const int32_t accessor = find_attribute(from->attributes, from->attribute_count, name);
-    const size_t width = format->out_components;
-    char place[PPMI_GLTF_PLACE];
-    float *values = NULL;
-    if (accessor < 0 || !array) return PPM_STATUS_OK;
-    ppmi_gltf_place(place, "%s.targets[%u].%s", s->place, (unsigned)target, name);
-    const ppm_status status = read_values(s, accessor, place, format, &values);
-    if (status != PPM_STATUS_OK) return status;
-    const bool has_alpha = s->reader->document->accessors[accessor].component_count == width;
-    for (size_t i = 0; i < s->geometry->vertex_count; ++i) {
-        for (size_t k = 0; k < width; ++k) {
-            if (k == 3 && !has_alpha) continue;
-            array[width * i + k] += (float)weight * values[width * source_index(s, i) + k];
-        }
+    static const ppmi_gltf_format vec2 = {2, 2, 2, false}, vec3 = {3, 3, 3, false};
+    static const ppmi_gltf_format color = {3, 4, 4, true};
+    const ppmi_gltf_geometry *g = s->geometry;
+    const struct {
+        const char *name;
+        const ppmi_gltf_format *format;
+        const float *base;
+        ppmi_gltf_delta *delta;
+    } parts[] = {{"POSITION", &vec3, g->positions, &target->position},
+                 {"NORMAL", &vec3, g->normals, &target->normal},
+                 {"TANGENT", &vec3, g->tangents, &target->tangent},
+                 {"COLOR_0", &color, g->colors, &target->color}};
+    ppm_status status = PPM_STATUS_OK;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && status == PPM_STATUS_OK; ++i) {
+        status =
+            read_delta(s, index, parts[i].name, parts[i].format, parts[i].base, parts[i].delta);
     }
-    ppmi_free(s->reader->context, values);
+    char name[] = "TEXCOORD_0";
+    for (size_t i = 0; i < PPM_MAX_UV_SETS && status == PPM_STATUS_OK; ++i) {
+        name[9] = (char)('0' + i);
+        status = read_delta(s, index, name, &vec2, g->uvs[i], &target->uvs[i]);
+    }
+    return status;
+}
+
+/* A copy of what a target changes, for all to be added to; *out stays NULL without one. */
+static ppm_status keep_base(const source *s, const float *values, size_t width, bool is_changed,
+                            float **out)
+{
+    const size_t count = s->geometry->vertex_count;
+    if (!is_changed || *out) return PPM_STATUS_OK;
+    *out = ppmi_alloc(s->reader->context, count, width * sizeof **out);
+    if (!*out) return ppmi_gltf_out_of_memory(s->reader, s->place);
+    memcpy(*out, values, count * width * sizeof **out);
     return PPM_STATUS_OK;
 }
 
-static ppm_status add_colors_and_uvs(const source *s, uint32_t target, double weight)
+static ppm_status keep_colors_and_uvs(const source *s, const ppmi_gltf_morph *target,
+                                      ppmi_gltf_deform_primitive *p)
 {
-    static const ppmi_gltf_format vec2 = {2, 2, 2, false}, color = {3, 4, 4, true};
-    static const char *const uv_names[PPM_MAX_UV_SETS] = {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2",
-                                                          "TEXCOORD_3", "TEXCOORD_4", "TEXCOORD_5",
-                                                          "TEXCOORD_6", "TEXCOORD_7"};
-    ppm_status status = add_now(s, target, "COLOR_0", weight, &color, s->geometry->colors);
+    const ppmi_gltf_geometry *g = s->geometry;
+    ppm_status status = keep_base(s, g->colors, 4, target->color.count > 0, &p->colors);
     for (size_t i = 0; i < PPM_MAX_UV_SETS && status == PPM_STATUS_OK; ++i) {
-        status = add_now(s, target, uv_names[i], weight, &vec2, s->geometry->uvs[i]);
+        status = keep_base(s, g->uvs[i], 2, target->uvs[i].count > 0, &p->uvs[i]);
     }
     return status;
 }
 
-static void clamp_colors(const ppmi_gltf_geometry *g)
+static ppm_status read_targets(const source *s, ppmi_gltf_deform_primitive *p)
 {
-    for (size_t i = 0; g->colors && i < 4 * g->vertex_count; ++i) {
-        g->colors[i] = fminf(fmaxf(g->colors[i], 0.0f), 1.0f);
-    }
-}
-
-static ppm_status read_targets(const source *s, int32_t node, ppmi_gltf_deform_primitive *p)
-{
-    const ppmi_gltf_pose *pose = s->reader->pose;
-    const double *weights = pose->weights + pose->first_weight[node];
     ppm_status status = PPM_STATUS_OK;
-    p->target_count = s->primitive->target_count;
-    if (p->target_count == 0) return PPM_STATUS_OK;
-    p->targets = ppmi_alloc_zeroed(s->reader->context, p->target_count, sizeof *p->targets);
+    if (s->primitive->target_count == 0) return PPM_STATUS_OK;
+    p->targets =
+        ppmi_alloc_zeroed(s->reader->context, s->primitive->target_count, sizeof *p->targets);
     if (!p->targets) return ppmi_gltf_out_of_memory(s->reader, s->place);
+    p->target_count = s->primitive->target_count;
     for (uint32_t i = 0; i < p->target_count && status == PPM_STATUS_OK; ++i) {
-        ppmi_gltf_morph *target = &p->targets[i];
-        status = read_delta(s, i, "POSITION", true, &target->position);
-        if (status == PPM_STATUS_OK) {
-            status = read_delta(s, i, "NORMAL", s->geometry->normals != NULL, &target->normal);
-        }
-        if (status == PPM_STATUS_OK) {
-            status = read_delta(s, i, "TANGENT", s->geometry->tangents != NULL, &target->tangent);
-        }
-        if (status == PPM_STATUS_OK) status = add_colors_and_uvs(s, i, weights[i]);
+        status = read_target(s, i, &p->targets[i]);
+        if (status == PPM_STATUS_OK) status = keep_colors_and_uvs(s, &p->targets[i], p);
     }
-    clamp_colors(s->geometry);
     return status;
 }
 
@@ -461,7 +475,7 @@ ppm_status ppmi_gltf_deform_read(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
         find_attribute(primitive->attributes, primitive->attribute_count, "POSITION");
     const source s = {reader, primitive, place, g, reader->document->accessors[position].count};
     p->vertex_count = (uint32_t)g->vertex_count;
-    ppm_status status = read_targets(&s, deform->node, p);
+    ppm_status status = read_targets(&s, p);
     if (status == PPM_STATUS_OK && deform->joint_count > 0) {
         status = read_influences(&s, deform->joint_count, p);
     }
@@ -503,14 +517,58 @@ bool ppmi_gltf_deform_has_moved(const ppmi_gltf_reader *reader, const ppmi_gltf_
     return deform->joint_count > 0 && pose->has_moved[deform->node];
 }
 
+/* values has width per vertex: the delta's, or one more. */
 static void add_delta(const ppmi_gltf_delta *delta, float weight, size_t width, float *values)
 {
-#pragma omp parallel for if (delta->count > SMALL)
-    for (uint32_t i = 0; i < delta->count; ++i) {
-        for (size_t k = 0; k < 3; ++k) {
-            values[width * delta->vertices[i] + k] += weight * delta->values[3 * (size_t)i + k];
+    const float *from = delta->values;
+    const uint32_t count = delta->count;
+#pragma omp parallel for if (count > SMALL)
+    for (uint32_t i = 0; i < count; ++i) {
+        for (size_t k = 0; k < delta->width; ++k) {
+            values[width * delta->vertices[i] + k] += weight * from[delta->width * (size_t)i + k];
         }
     }
+}
+
+/* Colours and texture coordinates, one value a picture; returns where the next array may go. */
+static float *add_to_copy(const ppmi_gltf_deform_primitive *p, const double *weights, size_t width,
+                          const float *base, size_t offset, float *out)
+{
+    memcpy(out, base, width * p->vertex_count * sizeof *out);
+    for (uint32_t i = 0; i < p->target_count; ++i) {
+        const ppmi_gltf_delta *delta =
+            (const ppmi_gltf_delta *)(const void *)((const unsigned char *)&p->targets[i] + offset);
+        if (weights[i] != 0.0) add_delta(delta, (float)weights[i], width, out);
+    }
+    return out + width * p->vertex_count;
+}
+
+static void morph_colors_and_uvs(const ppmi_gltf_deform_primitive *p, const double *weights,
+                                 float *out, ppm_primitive_desc *desc)
+{
+    if (p->colors) {
+        desc->colors = out;
+        float *end = add_to_copy(p, weights, 4, p->colors, offsetof(ppmi_gltf_morph, color), out);
+        for (; out < end; ++out) {
+            *out = fminf(fmaxf(*out, 0.0f), 1.0f); /* as the specification asks for */
+        }
+    }
+    for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
+        if (!p->uvs[i]) continue;
+        desc->uvs[i] = out;
+        out = add_to_copy(p, weights, 2, p->uvs[i],
+                          offsetof(ppmi_gltf_morph, uvs) + i * sizeof(ppmi_gltf_delta), out);
+    }
+}
+
+/* Floats per vertex that do not move but change. */
+static size_t count_changing(const ppmi_gltf_deform_primitive *p)
+{
+    size_t width = p->colors ? 4 : 0;
+    for (size_t i = 0; i < PPM_MAX_UV_SETS; ++i) {
+        width += p->uvs[i] ? 2 : 0;
+    }
+    return width;
 }
 
 /* One moment of a primitive: where its arrays are written. */
@@ -631,7 +689,8 @@ ppm_status ppmi_gltf_deform_pose(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
     const size_t count = (size_t)steps * p->vertex_count;
     const size_t width = 3 + (p->normals ? 3 : 0) + (p->tangents ? 4 : 0);
     ppmi_free(reader->context, p->buffer);
-    p->buffer = ppmi_alloc(reader->context, count, width * sizeof *p->buffer);
+    p->buffer = ppmi_alloc(reader->context, count * width + count_changing(p) * p->vertex_count,
+                           sizeof *p->buffer);
     if (!p->buffer) return ppmi_gltf_out_of_memory(reader, "skins and morph targets");
     const block b = {p->buffer, p->normals ? p->buffer + 3 * count : NULL,
                      p->tangents ? p->buffer + (p->normals ? 6 : 3) * count : NULL};
@@ -640,6 +699,8 @@ ppm_status ppmi_gltf_deform_pose(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
     desc->tangents = b.tangents;
     desc->motion_steps = steps;
     desc->vertex_count = p->vertex_count;
+    morph_colors_and_uvs(p, reader->pose->weights + reader->pose->first_weight[deform->node],
+                         p->buffer + count * width, desc);
     return fill(reader, deform, p, steps, &b);
 }
 

@@ -8,19 +8,20 @@
 
 /* What a target adds to one attribute, where it adds anything. */
 typedef struct ppmi_gltf_delta {
-    uint32_t count;
+    uint32_t count, width;
     uint32_t *vertices; /* each once */
-    float *values;      /* three per vertex */
+    float *values;      /* width per vertex */
 } ppmi_gltf_delta;
 
 typedef struct ppmi_gltf_morph {
-    ppmi_gltf_delta position, normal, tangent;
+    ppmi_gltf_delta position, normal, tangent, color, uvs[PPM_MAX_UV_SETS];
 } ppmi_gltf_morph;
 
 /* One primitive at rest, and what moves it. */
 typedef struct ppmi_gltf_deform_primitive {
     uint32_t vertex_count;
     float *positions, *normals, *tangents; /* the last two may be NULL */
+    float *colors, *uvs[PPM_MAX_UV_SETS];  /* NULL where no target changes them */
     uint32_t target_count;
     ppmi_gltf_morph *targets;
     uint32_t influence_count; /* per vertex; 0: it follows the node */
@@ -47,8 +48,7 @@ bool ppmi_gltf_is_deformed(const ppmi_gltf_reader *reader, int32_t node);
 ppm_status ppmi_gltf_deform_create(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_deform **out);
 void ppmi_gltf_deform_destroy(ppm_context *context, ppmi_gltf_deform *deform);
 
-/* Reads what moves a primitive, takes over its vertices, and applies what targets do to colours and
- * texture coordinates. */
+/* Reads what moves a primitive, and takes over its positions, normals and tangents. */
 ppm_status ppmi_gltf_deform_read(ppmi_gltf_reader *reader, ppmi_gltf_deform *deform,
                                  const ppmi_gltf_primitive *primitive, const char *place,
                                  ppmi_gltf_geometry *geometry);
@@ -61,7 +61,8 @@ ppm_status ppmi_gltf_add_deformed_mesh(ppmi_gltf_reader *reader, ppmi_gltf_defor
 bool ppmi_gltf_deform_has_moved(const ppmi_gltf_reader *reader, const ppmi_gltf_deform *deform);
 
 /* Sets positions, normals, tangents and motion_steps of desc to primitive number index in the
- * present pose. They stay valid until they are released. */
+ * present pose, and colors and uvs that targets change to those at the middle of the shutter. They
+ * stay valid until they are released. */
 ppm_status ppmi_gltf_deform_pose(ppmi_gltf_reader *reader, ppmi_gltf_deform *deform, uint32_t index,
                                  ppm_primitive_desc *desc);
 void ppmi_gltf_deform_release(ppm_context *context, ppmi_gltf_deform *deform);

@@ -92,3 +92,12 @@ ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, const ppm
     if (*id != 0) return ppm_scene_set_light(reader->scene, *id, desc);
     return ppm_scene_add_light(reader->scene, desc, id);
 }
+
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node)
+{
+    const ppm_light_desc dark = {.size = sizeof dark,
+                                 .kind = PPM_LIGHT_POINT,
+                                 .transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f}};
+    const ppm_light_id id = reader->placements->lights[node];
+    return id != 0 ? ppm_scene_set_light(reader->scene, id, &dark) : PPM_STATUS_OK;
+}

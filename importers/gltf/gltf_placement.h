@@ -25,5 +25,8 @@ ppm_status ppmi_gltf_put_instance(ppmi_gltf_reader *reader, int32_t node, size_t
 ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node,
                                 const ppm_camera_desc *desc);
 ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, const ppm_light_desc *desc);
+/* Of a light that cannot be as it is now: takes the light of the pose before away, if there is one.
+ */
+ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node);
 
 #endif

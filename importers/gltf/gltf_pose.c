@@ -307,12 +307,22 @@ static void find_changes(ppmi_gltf_reader *reader, ppmi_gltf_pose *p, const earl
     }
 }
 
+/* Its warnings are new, even when the import is long over. */
+static ppm_status bind(ppmi_gltf_reader *reader)
+{
+    const bool is_posed_again = reader->is_posed_again;
+    reader->is_posed_again = false;
+    const ppm_status status = ppmi_gltf_animations_bind(reader);
+    reader->is_posed_again = is_posed_again;
+    return status;
+}
+
 ppm_status ppmi_gltf_pose_take(ppmi_gltf_reader *reader, const ppm_pose *when)
 {
     ppmi_gltf_pose *p = reader->pose;
     const earlier before = {p->sample_count, p->worlds, p->sampled_weights};
     if (when->is_animated) {
-        const ppm_status status = ppmi_gltf_animations_bind(reader);
+        const ppm_status status = bind(reader);
         if (status != PPM_STATUS_OK) return status;
     } else {
         ppmi_gltf_animations_rest(reader);

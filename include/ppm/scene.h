@@ -253,8 +253,9 @@ PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
 /* Whether the instance is there at all: for rays, light and bounds; it is when added. */
 PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
                                                   uint32_t is_visible);
-/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc; its
- * vertex_count must be what it was, all else is not used. */
+/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those of
+ * its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be what
+ * it was, all else is not used. */
 PPM_API ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
                                                const ppm_primitive_desc *desc);
 PPM_API ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,

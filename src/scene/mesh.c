@@ -441,6 +441,22 @@ static bool choose_again(ppm_scene *scene, ppmi_primitive *primitive, mesh_fault
     return true;
 }
 
+static void replace(const float *from, size_t count, float by, float *to)
+{
+    if (!from || !to) return;
+    memcpy(to, from, count * sizeof *to);
+    replace_not_finite(to, count, by);
+}
+
+/* As many as there were, so in place. */
+static void replace_colors_and_uvs(const ppm_primitive_desc *desc, ppmi_primitive *target)
+{
+    const size_t count = target->vertex_count;
+    replace(desc->colors, 4 * count, 1.0f, target->colors);
+    for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++)
+        replace(desc->uvs[i], 2 * count, 0.0f, target->uvs[i]);
+}
+
 ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
                                        const ppm_primitive_desc *desc)
 {
@@ -463,6 +479,7 @@ ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_
     free_vertices(scene->context, target);
     mesh->shape_version++;
     *target = changed;
+    replace_colors_and_uvs(desc, target);
     update_bounds(mesh);
     report_faults(scene, mesh->name, &faults);
     return PPM_STATUS_OK;

@@ -106,8 +106,7 @@ static void every_allocation_may_fail(void **state)
     for (size_t i = 0; i < 2; ++i) {
         ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
         size_t n = 0;
-        const ppm_import_options options = {
-            .size = sizeof options, .scene = i == 0 ? NULL : "x", .variant = "v"};
+        const ppm_import_options options = {.size = sizeof options, .scene = i == 0 ? NULL : "x"};
         while (status == PPM_STATUS_OUT_OF_MEMORY) {
             ppm_asset *asset = NULL;
             gltf_reset(f);

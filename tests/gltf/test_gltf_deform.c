@@ -82,6 +82,7 @@ static const struct {
     {AT(byte_weights), 5121, 5, "VEC4", 1},
     {AT(indices), 5123, 6, "SCALAR", 0},
     {AT(inverse_binds), 5126, 1, "MAT4", 0},
+    {AT(positions), 5126, 5, "VEC2", 0},
 };
 
 /* What differs between the documents: members of node 0, attributes of the primitive, members of
@@ -409,6 +410,34 @@ static void weights_are_animated_by_node_and_by_pointer(void **state)
     }
 }
 
+static void targets_change_colours_and_texture_coordinates(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float weights[3] = {0.25f, 1.0f, 0.5f};
+    /* vertex 3: (0 1 0 0) + w (3 0 0 0), within 0 .. 1; and (1 0) + w (1 0) */
+    static const float reds[3] = {0.75f, 1.0f, 1.0f}, us[3] = {1.25f, 2.0f, 1.5f};
+    ppmi_gltf_asset *asset;
+    f->options.pose = gltf_at(0.25);
+    assert_gltf_status(f,
+                       open_rig(f, "", ",'COLOR_0':3,'TEXCOORD_0':16",
+                                ",'targets':[{'COLOR_0':4,'TEXCOORD_0':16}]",
+                                "'animations':[{'channels':[{'sampler':0,'target':{'node':0,"
+                                "'path':'weights'}}],'samplers':[{'input':6,'output':8}]}],",
+                                &asset),
+                       PPM_STATUS_OK);
+    for (size_t i = 0; i < 3; ++i) {
+        const ppm_pose when = gltf_at((double)weights[i]);
+        if (i > 0) assert_int_equal(ppmi_gltf_asset_set_pose(asset, &when), PPM_STATUS_OK);
+        const ppmi_primitive *p = only_primitive(f);
+        CLOSE(p->colors[8], reds[i]);
+        CLOSE(p->colors[9], 1.0);
+        CLOSE(p->uvs[0][4], us[i]);
+        CLOSE(p->uvs[0][5], 0.0);
+        assert_near(vec3_load(p->positions + 6), rest_position(2));
+    }
+    ppmi_gltf_asset_close(asset);
+}
+
 static void targets_come_before_the_skin(void **state)
 {
     gltf_fixture *f = *state;
@@ -521,6 +550,7 @@ int main(void)
         TEST(targets_are_added_by_their_weights),
         TEST(the_mesh_has_weights_for_nodes_without),
         TEST(weights_are_animated_by_node_and_by_pointer),
+        TEST(targets_change_colours_and_texture_coordinates),
         TEST(targets_come_before_the_skin),
         TEST(a_pose_keeps_the_mesh_and_returns),
         TEST(vertices_move_while_the_shutter_is_open),

@@ -253,6 +253,27 @@ static void visibility_switches_meshes_and_lights(void **state)
     ppmi_gltf_asset_close(asset);
 }
 
+/* A negative intensity, for one: it is not what the pose before has left. */
+static void a_light_that_cannot_be_is_dark(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float values[2] = {4, -4};
+    ppmi_gltf_asset *asset;
+    f->options.pose = gltf_at(0.0);
+    assert_gltf_status(f,
+                       open_pointer(f, "/extensions/KHR_lights_punctual/lights/0/intensity",
+                                    "SCALAR", values, 1, &asset),
+                       PPM_STATUS_OK);
+    CLOSE(light_intensity(f), 4.0);
+    ppm_pose when = gltf_at(1.0);
+    assert_int_equal(ppmi_gltf_asset_set_pose(asset, &when), PPM_STATUS_OK);
+    CLOSE(light_intensity(f), 0.0);
+    when = gltf_at(0.25);
+    assert_int_equal(ppmi_gltf_asset_set_pose(asset, &when), PPM_STATUS_OK);
+    CLOSE(light_intensity(f), 2.0);
+    ppmi_gltf_asset_close(asset);
+}
+
 static void pointers_to_what_is_not_shown_are_named(void **state)
 {
     gltf_fixture *f = *state;
@@ -262,9 +283,12 @@ static void pointers_to_what_is_not_shown_are_named(void **state)
     for (size_t i = 0; i < sizeof pointers / sizeof pointers[0]; ++i) {
         ppmi_gltf_asset *asset;
         gltf_reset(f);
-        f->options.pose = gltf_at(0.0);
+        f->options.pose = (ppm_pose){0};
         assert_gltf_status(f, open_pointer(f, pointers[i], "SCALAR", values, 1, &asset),
                            PPM_STATUS_OK);
+        assert_false(gltf_logged(f, 'W', pointers[i]));
+        const ppm_pose when = gltf_at(0.0); /* only when it is played */
+        assert_int_equal(ppmi_gltf_asset_set_pose(asset, &when), PPM_STATUS_OK);
         assert_gltf_logged(f, 'W', pointers[i]);
         ppmi_gltf_asset_close(asset);
     }
@@ -294,6 +318,7 @@ int main(void)
         TEST(every_property_follows_its_pointer),
         TEST(values_are_those_of_the_middle_of_the_shutter),
         TEST(visibility_switches_meshes_and_lights),
+        TEST(a_light_that_cannot_be_is_dark),
         TEST(pointers_to_what_is_not_shown_are_named),
         TEST(pointers_that_lead_nowhere_are_refused),
     };
