@@ -97,7 +97,7 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
     const double begin = clock_seconds();
     int result = outputs_check(s->outputs, s->context);
     if (result == EXIT_DONE) {
-        result = input_set_moment(s->input, s->color, s->context, s->options, picture);
+        result = input_set_moment(s->input, s->console, s->color, s->context, s->options, picture);
     }
     if (result != EXIT_DONE) return result;
     if (state->left > 0) state->left--;
@@ -146,11 +146,14 @@ static int render_all(const cli_sequence *s, run_state *state)
     return result;
 }
 
-/* The names of cameras are known once the file is imported. */
+/* The names of cameras are known once the file is imported. A file without any has one picture, by
+ * the camera that frames it. */
 static int take_cameras(const cli_sequence *s, run_state *state, cli_picture *first)
 {
-    if (!s->options->all_cameras) return EXIT_DONE;
-    int result = input_set_moment(s->input, s->color, s->context, s->options, first);
+    if (!s->options->all_cameras || ppm_asset_count(s->input->asset, PPM_ASSET_CAMERAS) == 0) {
+        return EXIT_DONE;
+    }
+    int result = input_set_moment(s->input, s->console, s->color, s->context, s->options, first);
     if (result == EXIT_DONE) result = pictures_take_cameras(s->pictures, s->input->scene);
     if (result != EXIT_DONE) return result;
     state->left = count_left(s, first);
