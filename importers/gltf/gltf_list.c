@@ -48,9 +48,17 @@ static bool add_broken(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int lis
     return true;
 }
 
-static ppmi_gltf_span root_member(const ppmi_gltf_reader *r, const char *key)
+/* Parts of the JSON, found in one walk over what may be a large text. */
+typedef struct json_parts {
+    ppmi_gltf_span accessors, extensions, images;
+} json_parts;
+
+static json_parts find_parts(const ppmi_gltf_reader *r)
 {
-    return ppmi_gltf_scan_member(r->json, ppmi_gltf_scan_root(r->json_length), key);
+    static const char *const keys[] = {"accessors", "extensions", "images"};
+    ppmi_gltf_span spans[3];
+    ppmi_gltf_scan_members(r->json, ppmi_gltf_scan_root(r->json_length), keys, 3, spans);
+    return (json_parts){.accessors = spans[0], .extensions = spans[1], .images = spans[2]};
 }
 
 static const char *name_in(const ppmi_gltf_reader *r, ppmi_gltf_span object, char *buffer)
@@ -338,10 +346,11 @@ static void list_materials(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
 
 /* ---- variants, animations, images --------------------------------------------- */
 
-static void list_variants(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
+static void list_variants(const ppmi_gltf_reader *r, ppmi_catalog *catalog,
+                          ppmi_gltf_span extensions)
 {
     const ppmi_gltf_span extension =
-        ppmi_gltf_scan_member(r->json, root_member(r, "extensions"), "KHR_materials_variants");
+        ppmi_gltf_scan_member(r->json, extensions, "KHR_materials_variants");
     const ppmi_gltf_span variants = ppmi_gltf_scan_member(r->json, extension, "variants");
     ppmi_gltf_span variant;
     char name[PPMI_GLTF_PLACE];
@@ -367,9 +376,8 @@ static double first_number(const ppmi_gltf_reader *r, ppmi_gltf_span object, con
     return ppmi_gltf_scan_number(r->json, element, otherwise);
 }
 
-static bool key_times_init(const ppmi_gltf_reader *r, key_times *times)
+static bool key_times_init(const ppmi_gltf_reader *r, ppmi_gltf_span accessors, key_times *times)
 {
-    const ppmi_gltf_span accessors = root_member(r, "accessors");
     size_t cursor = 0;
     times->count = r->document->accessor_count;
     times->first = ppmi_alloc(r->context, 2 * times->count + 1, sizeof *times->first);
@@ -418,12 +426,13 @@ static void add_animation(ppmi_catalog *catalog, const ppmi_gltf_animation *anim
     item->end_s = end;
 }
 
-static void list_animations(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
+static void list_animations(const ppmi_gltf_reader *r, ppmi_catalog *catalog,
+                            ppmi_gltf_span accessors)
 {
     const ppmi_gltf_document *d = r->document;
     key_times times = {0};
     if (d->animation_count == 0) return;
-    if (!key_times_init(r, &times)) {
+    if (!key_times_init(r, accessors, &times)) {
         catalog->is_out_of_memory = true;
         return;
     }
@@ -451,9 +460,8 @@ static void describe_image(const ppmi_gltf_reader *r, ppmi_gltf_span image, char
     }
 }
 
-static void list_images(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
+static void list_images(const ppmi_gltf_reader *r, ppmi_catalog *catalog, ppmi_gltf_span images)
 {
-    const ppmi_gltf_span images = root_member(r, "images");
     ppmi_gltf_span image;
     char name[PPMI_GLTF_PLACE];
     for (size_t cursor = 0; ppmi_gltf_scan_next(r->json, images, &cursor, &image);) {
@@ -477,6 +485,7 @@ static void say_light_units(const ppmi_gltf_reader *r, ppmi_catalog *catalog)
 
 void ppmi_gltf_fill_catalog(const ppmi_gltf_reader *reader, ppmi_catalog *catalog)
 {
+    const json_parts parts = find_parts(reader);
     int32_t *parents = NULL;
     catalog->generator = ppmi_catalog_text(catalog, reader->document->generator);
     list_scenes(reader, catalog);
@@ -489,8 +498,8 @@ void ppmi_gltf_fill_catalog(const ppmi_gltf_reader *reader, ppmi_catalog *catalo
     }
     list_meshes(reader, catalog);
     list_materials(reader, catalog);
-    list_variants(reader, catalog);
-    list_animations(reader, catalog);
-    list_images(reader, catalog);
+    list_variants(reader, catalog, parts.extensions);
+    list_animations(reader, catalog, parts.accessors);
+    list_images(reader, catalog, parts.images);
     say_light_units(reader, catalog);
 }

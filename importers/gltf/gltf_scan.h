@@ -13,6 +13,10 @@ ppmi_gltf_span ppmi_gltf_scan_root(size_t length);
  * Keys are compared as they are written. */
 ppmi_gltf_span ppmi_gltf_scan_member(const char *text, ppmi_gltf_span value, const char *key);
 
+/* The same for count keys, in one walk. */
+void ppmi_gltf_scan_members(const char *text, ppmi_gltf_span value, const char *const *keys,
+                            size_t count, ppmi_gltf_span *out_values);
+
 /* The elements of an array, one after the other: *cursor begins as 0. False after the last, and
  * when value is no array. */
 bool ppmi_gltf_scan_next(const char *text, ppmi_gltf_span value, size_t *cursor,

@@ -4,14 +4,23 @@
 #include "gltf/gltf_list.h"
 #include "obj/obj_list.h"
 
+/* The report of a glTF file, or NULL. */
+static const ppmi_gltf_report *report_of(const ppm_asset *asset)
+{
+    return asset && asset->gltf ? &ppmi_gltf_asset_reader(asset->gltf)->report : NULL;
+}
+
 ppm_status ppmi_asset_fill_catalog(ppm_asset *asset)
 {
+    const ppmi_gltf_report *report = report_of(asset);
     asset->catalog.context = asset->context;
     if (asset->gltf) ppmi_gltf_fill_catalog(ppmi_gltf_asset_reader(asset->gltf), &asset->catalog);
     if (asset->obj) ppmi_obj_fill_catalog(asset->obj, &asset->catalog);
-    if (!asset->catalog.is_out_of_memory) return PPM_STATUS_OK;
+    if (!asset->catalog.is_out_of_memory && !(report && report->out_of_memory)) {
+        return PPM_STATUS_OK;
+    }
     return ppmi_fail(asset->context, PPM_STATUS_OUT_OF_MEMORY,
-                     "%s: out of memory for the names in it", asset->path);
+                     "%s: out of memory for the list of what is in it", asset->path);
 }
 
 uint32_t ppm_asset_count(const ppm_asset *asset, int32_t kind)
@@ -52,8 +61,8 @@ const char *ppm_asset_light_units(const ppm_asset *asset)
 
 uint32_t ppm_asset_feature_count(const ppm_asset *asset)
 {
-    if (!asset || !asset->gltf) return 0;
-    return (uint32_t)ppmi_gltf_asset_reader(asset->gltf)->report.count;
+    const ppmi_gltf_report *report = report_of(asset);
+    return report ? (uint32_t)report->count : 0;
 }
 
 ppm_status ppm_asset_get_feature(const ppm_asset *asset, uint32_t index,
@@ -67,7 +76,7 @@ ppm_status ppm_asset_get_feature(const ppm_asset *asset, uint32_t index,
                          "%s: no feature %u: there are %u", asset->path, index,
                          ppm_asset_feature_count(asset));
     }
-    const ppmi_gltf_feature *feature = &ppmi_gltf_asset_reader(asset->gltf)->report.items[index];
+    const ppmi_gltf_feature *feature = &report_of(asset)->items[index];
     *out_feature = (ppm_asset_feature){.size = out_feature->size,
                                        .name = feature->name,
                                        .verdict = feature->verdict,

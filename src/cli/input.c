@@ -160,20 +160,44 @@ static ppm_status import(cli_input *input, const ppm_color *color, ppm_context *
     return status;
 }
 
-int input_set_moment(cli_input *input, const ppm_color *color, ppm_context *context,
-                     const cli_options *options, const cli_picture *picture)
+static int set_pose(cli_input *input, const ppm_pose *pose)
+{
+    if (is_same_pose(pose, &input->pose)) return EXIT_DONE;
+    input->pose = *pose;
+    return exit_status_of(ppm_asset_set_pose(input->asset, pose), EXIT_INPUT);
+}
+
+/* A camera that frames the scene does so in the static pose: it must neither follow what moves nor
+ * depend on the frame that a run begins with. A scene of nothing is left to the render to refuse.
+ */
+static int frame_static_pose(cli_input *input, cli_console *console, const cli_options *options)
+{
+    ppm_scene_info info = {.size = sizeof info};
+    const ppm_pose still = {0};
+    if (ppm_scene_get_info(input->scene, &info) != PPM_STATUS_OK) return EXIT_INPUT;
+    if (info.cameras > 0 || info.instances == 0) return EXIT_DONE;
+    const int result = set_pose(input, &still);
+    return result == EXIT_DONE ? setup_missing_camera(console, input->scene, options) : result;
+}
+
+int input_set_moment(cli_input *input, cli_console *console, const ppm_color *color,
+                     ppm_context *context, const cli_options *options, const cli_picture *picture)
 {
     const double begin = clock_seconds();
     const bool is_first = !input->scene;
     const ppm_pose pose = pose_of(options, picture);
-    ppm_status status = is_first ? import(input, color, context) : PPM_STATUS_OK;
-    if (status == PPM_STATUS_OK && !is_same_pose(&pose, &input->pose)) {
-        status = ppm_asset_set_pose(input->asset, &pose);
-        input->pose = pose;
+    int result = EXIT_DONE;
+    if (is_first) {
+        ppm_status status = import(input, color, context);
+        if (status == PPM_STATUS_OK) status = setup_surroundings(input->scene, options);
+        result = exit_status_of(status, EXIT_INPUT);
     }
-    if (status == PPM_STATUS_OK && is_first) status = setup_surroundings(input->scene, options);
+    if (is_first && result == EXIT_DONE && picture->has_frame) {
+        result = frame_static_pose(input, console, options);
+    }
+    if (result == EXIT_DONE) result = set_pose(input, &pose);
     input->seconds += clock_seconds() - begin;
-    return exit_status_of(status, EXIT_INPUT);
+    return result;
 }
 
 /* ---- what is said of animations -------------------------------------------------------------- */

@@ -27,7 +27,7 @@ void input_say_animations(const cli_input *input, cli_console *console, const cl
 /* Brings the scene to the moment of picture; the first time it is imported, with the environment,
  * the sun and the fog that are asked for. No render of the scene may be alive. Returns an exit
  * status; the library has said what is wrong. */
-int input_set_moment(cli_input *input, const ppm_color *color, ppm_context *context,
-                     const cli_options *options, const cli_picture *picture);
+int input_set_moment(cli_input *input, cli_console *console, const ppm_color *color,
+                     ppm_context *context, const cli_options *options, const cli_picture *picture);
 
 #endif

@@ -71,8 +71,9 @@ static void begin_passes(const picture_task *task, ppm_render *render, cli_progr
     if (task->is_first) say_what_begins(task->console, render);
 }
 
-/* Passes until a stop, a signal or a failure. */
-static int run_passes(const picture_task *task, ppm_render *render, uint64_t *out_passes)
+/* Passes until a stop, a signal or a failure. *out_is_whole: all that are asked for are done. */
+static int run_passes(const picture_task *task, ppm_render *render, uint64_t *out_passes,
+                      bool *out_is_whole)
 {
     char label[256];
     cli_progress progress;
@@ -86,7 +87,8 @@ static int run_passes(const picture_task *task, ppm_render *render, uint64_t *ou
         if (status != PPM_STATUS_OK) break;
         if (++passes == 1) signals_enter_passes(render);
         const double elapsed = clock_seconds() - begin;
-        if (progress_is_done(&progress, passes, elapsed)) break;
+        *out_is_whole = progress_is_done(&progress, passes, elapsed);
+        if (*out_is_whole) break;
         show_and_refresh(task, render, &progress, elapsed);
     }
     console_clear_line(task->console);
@@ -102,7 +104,7 @@ static void say_how_it_ended(const picture_task *task, const ppm_render *render,
     if (result->is_stopped) {
         console_always(task->console, "stopped by a signal after %llu pass%s%s%s%s", count, plural,
                        task->label ? " of " : "", task->label ? task->label : "",
-                       result->is_written ? "" : "; that picture is not written");
+                       result->is_dropped ? "; that picture is not written" : "");
         return;
     }
     ppm_render_stats stats = {.size = sizeof stats};
@@ -117,15 +119,15 @@ static int first_failure(int earlier, int later)
     return earlier != EXIT_DONE ? earlier : later;
 }
 
-/* A signal during the last pass of a picture stops nothing of it. A pass that fails does not cost
- * the passes before it, unless the picture is to be whole. */
+/* A pass that fails does not cost the passes before it, unless the picture is to be whole. */
 int picture_render(const picture_task *task, ppm_render *render, picture_result *out_result)
 {
     picture_result result = {0};
-    int status = run_passes(task, render, &result.passes);
-    result.is_stopped = signals_stop_requested();
-    const bool is_cut = task->is_whole_or_nothing && (result.is_stopped || status != EXIT_DONE);
-    if (result.passes > 0 && !is_cut) {
+    bool is_whole = false;
+    int status = run_passes(task, render, &result.passes, &is_whole);
+    result.is_stopped = !is_whole && signals_stop_requested();
+    result.is_dropped = task->is_whole_or_nothing && !is_whole;
+    if (result.passes > 0 && !result.is_dropped) {
         const int written = outputs_write(task->outputs, render);
         result.is_written = written == EXIT_DONE;
         status = first_failure(status, written);

@@ -25,7 +25,8 @@ typedef struct picture_task {
 
 typedef struct picture_result {
     uint64_t passes; /* finished */
-    bool is_stopped; /* by a signal */
+    bool is_stopped; /* by a signal, before all of its passes */
+    bool is_dropped; /* not to be written, since it is not whole */
     bool is_written; /* all files are */
 } picture_result;
 

@@ -11,7 +11,7 @@
 
 /* How far it is. */
 typedef struct run_state {
-    size_t left;       /* pictures that are still to be rendered, by what was on disk before */
+    size_t left;       /* pictures still to be rendered, by what was on disk at the beginning */
     uint64_t rendered; /* and written */
     uint64_t skipped;  /* since their files were there */
     double seconds;    /* that the rendered ones took */
@@ -55,25 +55,32 @@ static size_t count_left(const cli_sequence *s, cli_picture *out_first)
 
 /* ---- one picture ----------------------------------------------------------------------------- */
 
+static int record(const cli_sequence *s, const picture_task *task, const ppm_render *render,
+                  const run_state *state)
+{
+    const stats_source source = {.asset = s->input->asset,
+                                 .scene = s->input->scene,
+                                 .picture = task->picture,
+                                 .outputs = s->outputs,
+                                 .render = render,
+                                 .skipped = state->skipped,
+                                 .import_s = s->input->seconds};
+    return stats_add(s->stats, s->console, &source);
+}
+
+/* A picture that could not be written has its statistics all the same. */
 static int render_and_record(const cli_sequence *s, const picture_task *task, run_state *state)
 {
     ppm_render *render = NULL;
     picture_result done = {0};
     int result = picture_prepare(task, &render);
     if (result == EXIT_DONE) result = picture_render(task, render, &done);
-    if (done.is_written) {
-        const stats_source source = {.asset = s->input->asset,
-                                     .scene = s->input->scene,
-                                     .picture = task->picture,
-                                     .outputs = s->outputs,
-                                     .render = render,
-                                     .skipped = state->skipped,
-                                     .import_s = s->input->seconds};
-        const int written = stats_add(s->stats, s->console, &source);
-        if (result == EXIT_DONE) result = written;
-        state->rendered++;
+    if (done.passes > 0 && !done.is_dropped) {
+        const int recorded = record(s, task, render, state);
+        if (result == EXIT_DONE) result = recorded;
     }
-    state->is_interrupted = done.is_stopped;
+    state->rendered += done.is_written;
+    state->is_interrupted = signals_stop_requested();
     if (task->label && state->left > 0) {
         signals_leave_picture();
     } else {
@@ -90,7 +97,7 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
     const double begin = clock_seconds();
     int result = outputs_check(s->outputs, s->context);
     if (result == EXIT_DONE) {
-        result = input_set_moment(s->input, s->color, s->context, s->options, picture);
+        result = input_set_moment(s->input, s->console, s->color, s->context, s->options, picture);
     }
     if (result != EXIT_DONE) return result;
     if (state->left > 0) state->left--;
@@ -139,11 +146,14 @@ static int render_all(const cli_sequence *s, run_state *state)
     return result;
 }
 
-/* The names of cameras are known once the file is imported. */
+/* The names of cameras are known once the file is imported. A file without any has one picture, by
+ * the camera that frames it. */
 static int take_cameras(const cli_sequence *s, run_state *state, cli_picture *first)
 {
-    if (!s->options->all_cameras) return EXIT_DONE;
-    int result = input_set_moment(s->input, s->color, s->context, s->options, first);
+    if (!s->options->all_cameras || ppm_asset_count(s->input->asset, PPM_ASSET_CAMERAS) == 0) {
+        return EXIT_DONE;
+    }
+    int result = input_set_moment(s->input, s->console, s->color, s->context, s->options, first);
     if (result == EXIT_DONE) result = pictures_take_cameras(s->pictures, s->input->scene);
     if (result != EXIT_DONE) return result;
     state->left = count_left(s, first);
@@ -155,7 +165,7 @@ static int say_how_it_ended(const cli_sequence *s, const run_state *state, int r
     const unsigned long long rendered = state->rendered, skipped = state->skipped;
     const size_t count = pictures_count(s->pictures);
     const bool is_complete = rendered + skipped == count;
-    if (state->is_interrupted && !is_complete) {
+    if (state->is_interrupted && !is_complete && result == EXIT_DONE) {
         console_always(s->console, "%llu of %zu pictures are there", rendered + skipped, count);
         return EXIT_SIGNAL;
     }

@@ -107,15 +107,10 @@ static int find_camera(cli_console *console, const ppm_scene *scene, const char 
     return result;
 }
 
-/* Distances are from a camera: one that the library would add as the render begins is needed now.
- */
-static int add_missing_camera(cli_console *console, ppm_scene *scene,
-                              const ppm_render_options *render_options)
+int setup_missing_camera(cli_console *console, ppm_scene *scene, const cli_options *options)
 {
     if (ppm_scene_camera_count(scene) > 0) return EXIT_DONE;
-    ppm_scene_info info = {.size = sizeof info};
-    if (ppm_scene_get_info(scene, &info) != PPM_STATUS_OK) return EXIT_INPUT;
-    const float width = (float)render_options->width, height = (float)render_options->height;
+    const float width = (float)options->size.width, height = (float)options->size.height;
     const float aspect = width > 0.0f && height > 0.0f ? width / height : 16.0f / 9.0f;
     ppm_camera_id id = 0;
     const ppm_status status = ppm_scene_add_framing_camera(scene, aspect, &id);
@@ -125,11 +120,14 @@ static int add_missing_camera(cli_console *console, ppm_scene *scene,
     return EXIT_DONE;
 }
 
-static int set_focus(cli_console *console, ppm_scene *scene, const char *focus,
+/* Distances are from a camera: one that the library would add as the render begins is needed now.
+ */
+static int set_focus(cli_console *console, ppm_scene *scene, const cli_options *options,
                      ppm_render_options *render_options)
 {
+    const char *const focus = options->focus;
     if (focus_is_node(scene, focus)) {
-        const int result = add_missing_camera(console, scene, render_options);
+        const int result = setup_missing_camera(console, scene, options);
         if (result != EXIT_DONE) return result;
     }
     const ppm_camera_id camera = render_options->camera ? render_options->camera : 1;
@@ -162,7 +160,7 @@ static int set_camera(cli_console *console, ppm_scene *scene, const cli_options 
         result = find_camera(console, scene, options->camera, &render_options->camera);
     }
     if (result == EXIT_DONE && options->focus) {
-        result = set_focus(console, scene, options->focus, render_options);
+        result = set_focus(console, scene, options, render_options);
     }
     if (result == EXIT_DONE && options->crop.is_given) {
         result = set_crop(scene, &options->crop, render_options);

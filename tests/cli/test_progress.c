@@ -66,6 +66,23 @@ static void a_path_tracer_counts_rays(void **state)
                         "pass 1    0%  500 k rays/s  2:00:00 left");
 }
 
+/* Half of a picture of 10 s is left, and three more: they take as long as this one seems to, or,
+ * where there were pictures before, as long as those did. */
+static void the_time_left_of_a_sequence_is_that_of_all_its_pictures(void **state)
+{
+    (void)state;
+    cli_progress progress = stops(10, 0.0);
+    const ppm_render_stats stats = {
+        .size = sizeof stats, .passes = 5, .rays = 5000000, .seconds_render = 5.0};
+    char line[160];
+    progress_set_sequence(&progress, "frame 7 (2 of 5)  ", 3, 0.0);
+    assert_string_equal(progress_line(&progress, &stats, 5.0, line, sizeof line),
+                        "frame 7 (2 of 5)  pass 5/10   50%  1.00 M rays/s  0:35 left");
+    progress_set_sequence(&progress, "", 3, 20.0);
+    assert_string_equal(progress_line(&progress, &stats, 5.0, line, sizeof line),
+                        "pass 5/10   50%  1.00 M rays/s  1:05 left");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -74,6 +91,7 @@ int main(void)
         cmocka_unit_test(the_time_is_met_at_the_nearest_end_of_a_pass),
         cmocka_unit_test(whichever_stop_is_nearest_counts),
         cmocka_unit_test(a_path_tracer_counts_rays),
+        cmocka_unit_test(the_time_left_of_a_sequence_is_that_of_all_its_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

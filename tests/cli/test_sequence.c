@@ -171,6 +171,32 @@ static void a_frame_alone_has_the_bits_that_it_has_in_a_sequence(void **state)
     assert_there((const char *const[]){"all_1.exr", "all_2.exr", "all_3.exr", "alone.exr", NULL});
 }
 
+/* The moving scene without the use of its cameras. */
+static void write_bare_scene(void)
+{
+    static char text[8192];
+    FILE *const from = fopen("moving.gltf", "r"), *const to = fopen("bare.gltf", "w");
+    assert_true(from && to);
+    const size_t length = fread(text, 1, sizeof text, from);
+    for (char *use = text; (use = memmem(use, length - (size_t)(use - text), "\"camera\"", 8));)
+        use[1] = 'k';
+    assert_int_equal(fwrite(text, 1, length, to), length);
+    fclose(from);
+    fclose(to);
+}
+
+/* What moves changes the box around the scene: the camera that frames it must not follow. */
+static void all_frames_are_framed_alike(void **state)
+{
+    (void)state;
+    write_bare_scene();
+    run_well(QUICK "--frames 0-24/24 --animation Slide -o b%d.exr bare.gltf");
+    run_well(QUICK "--frame 24 --animation Slide -o alone.exr bare.gltf");
+    run_well(QUICK "--camera all -o still.exr bare.gltf");
+    assert_true(has_same_pixels("b24.exr", "alone.exr"));
+    assert_there((const char *const[]){"b0.exr", "b24.exr", "alone.exr", "still.camera.exr", NULL});
+}
+
 /* The first 4096 bytes of a file hold an EXR's header. */
 static void assert_header_holds(const char *path, const void *bytes, size_t count)
 {
@@ -342,6 +368,7 @@ int main(void)
         cmocka_unit_test(a_still_picture_takes_names_as_they_are),
         cmocka_unit_test(all_cameras_have_files_by_their_names),
         cmocka_unit_test(a_frame_alone_has_the_bits_that_it_has_in_a_sequence),
+        cmocka_unit_test(all_frames_are_framed_alike),
         cmocka_unit_test(the_header_says_which_frame_it_is),
         cmocka_unit_test(animations_that_are_not_played_are_told),
         cmocka_unit_test(only_missing_pictures_are_rendered),

@@ -118,7 +118,7 @@ static void one_lost_output_does_not_cost_the_others(void **state)
     (void)state;
     assert_int_equal(mkdir("lost", 0777), 0);
     test_process process;
-    start_program(&process, ENDLESS "-o lost/a.exr -o kept.exr tiny.gltf");
+    start_program(&process, ENDLESS "--stats kept.json -o lost/a.exr -o kept.exr tiny.gltf");
     wait_for_text(&process, "pass 1/");
     assert_int_equal(rename("lost", "gone"), 0);
     kill(process.pid, SIGINT);
@@ -126,6 +126,7 @@ static void one_lost_output_does_not_cost_the_others(void **state)
     if (status != 3) fail_msg("status %d: %s", status, process.err);
     assert_contains(process.err, "lost/a.exr");
     assert_complete("kept.exr", 32, 16);
+    assert_int_equal(access("kept.json", F_OK), 0);
 }
 
 /* Waits for a file as a viewer would, without help from the program. */

@@ -1,5 +1,6 @@
 /* A square of 2 m, once as a floor and once, smaller and upside down, as a lamp. In the moving
- * scene the lamp goes sideways, once along x and once along z. */
+ * scene the lamp goes sideways, once along x, from beyond the floor to beyond it, and once along z.
+ */
 #include "cli/tiny_scene.h"
 
 #include <stddef.h>
@@ -76,7 +77,7 @@ static const char moving_lists[] =
     " \"images\": [{\"name\": \"Wood\", \"uri\": \"wood%20floor.png\"}],\n";
 
 static const float moving_keys[] = {0.0f,  1.0f,                           /* seconds */
-                                    -0.5f, 1.5f, 0.0f,  0.5f, 1.5f, 0.0f,  /* along x */
+                                    -1.5f, 1.5f, 0.0f,  1.5f, 1.5f, 0.0f,  /* along x */
                                     0.0f,  1.5f, -0.5f, 0.0f, 1.5f, 0.5f}; /* along z */
 
 static bool write_scene(const char *path, bool is_moving)

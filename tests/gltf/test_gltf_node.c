@@ -215,6 +215,16 @@ static void instancing_repeats_the_mesh(void **state)
     assert_place(f, 1, vec3(1, 0, 0), vec3(1, 0, 5));
 }
 
+static void animations_are_reported(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}],'animations':[{}]," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
+    assert_gltf_logged(f, 'D', "honoured: animations: 1 animations");
+}
+
 static void a_scene_is_chosen_by_name_or_number(void **state)
 {
     gltf_fixture *f = *state;
@@ -279,6 +289,7 @@ int main(void)
         TEST(very_deep_hierarchies_are_walked),
         TEST(transforms_that_overflow_are_refused),
         TEST(instancing_repeats_the_mesh),
+        TEST(animations_are_reported),
         TEST(a_scene_is_chosen_by_name_or_number),
         TEST(hidden_nodes_show_neither_meshes_nor_lights),
     };

@@ -16,7 +16,7 @@ set(imageio_uses imageio ${base_uses})
 set(color_uses color ${base_uses})
 set(api_uses api render imageio color gltf obj ${photon_uses})
 set(cli_uses cli ppm base/suggest.h)
-set(compare_uses compare imageio cli/values.h cli/exit_status.h ${base_uses})
+set(compare_uses compare imageio cli/option_table.h cli/values.h cli/exit_status.h ${base_uses})
 set(gltf_uses gltf ${base_uses})
 set(obj_uses obj ${base_uses})
 
