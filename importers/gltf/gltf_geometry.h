@@ -34,6 +34,11 @@ ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const 
 /* That radius, from the vertices of all primitives of a mesh. */
 float ppmi_gltf_line_radius(const ppmi_gltf_geometry *primitives, size_t count);
 
+/* Computes tangents for triangles that have normals, coordinates and no tangents, where a material
+ * (its number in the file) has a normal map. Vertices may be added. */
+ppm_status ppmi_gltf_add_tangents(ppmi_gltf_reader *reader, int32_t material, const char *place,
+                                  ppmi_gltf_geometry *geometry);
+
 /* Drops the vertices that no element uses: primitives often share one long vertex list, each with
  * its own part of it. False when memory is out. */
 bool ppmi_gltf_compact(ppm_context *context, ppmi_gltf_geometry *geometry);

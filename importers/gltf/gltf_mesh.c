@@ -179,6 +179,8 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     status = read_attributes(reader, primitive, place, g);
     if (status != PPM_STATUS_OK) return status;
     if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
+    status = ppmi_gltf_add_tangents(reader, primitive->material, place, g);
+    if (status != PPM_STATUS_OK) return status;
     ppmi_gltf_place(inner, "%s.material", place);
     return ppmi_gltf_use_material(reader, primitive->material, inner, &g->material);
 }
