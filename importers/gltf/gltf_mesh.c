@@ -7,6 +7,8 @@
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
+enum { LARGE_MESH_VERTICES = 1 << 20 };
+
 static const ppmi_gltf_format vec2_format = {2, 2, 2, false};
 static const ppmi_gltf_format vec3_format = {3, 3, 3, false};
 static const ppmi_gltf_format vec4_format = {4, 4, 4, false};
@@ -107,18 +109,26 @@ static int32_t mode_of(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive
     return is_draco ? PPMI_GLTF_TRIANGLES : primitive->mode;
 }
 
-static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, const uint32_t *list,
+/* Takes the list where it is a triangle list already: *list is then NULL. */
+static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, uint32_t **list,
                                 size_t count, ppmi_gltf_geometry *g)
 {
-    if (mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
+    if (mode == PPMI_GLTF_TRIANGLES) {
+        if (count % 3 != 0) reader->tally.broken_counts++;
+        g->element_count = count / 3;
+        g->index_count = 3 * g->element_count;
+        g->indices = *list;
+        *list = NULL;
+        return PPM_STATUS_OK;
+    }
     if (mode >= PPMI_GLTF_TRIANGLES) {
-        const ppm_status status =
-            ppmi_gltf_triangles(reader->context, mode, list, count, &g->indices, &g->element_count);
+        const ppm_status status = ppmi_gltf_triangles(reader->context, mode, *list, count,
+                                                      &g->indices, &g->element_count);
         g->index_count = 3 * g->element_count;
         return status;
     }
     g->kind = mode == PPMI_GLTF_POINTS ? PPM_PRIMITIVE_POINTS : PPM_PRIMITIVE_LINES;
-    const ppm_status status = ppmi_gltf_points_and_lines(reader->context, mode, list, count,
+    const ppm_status status = ppmi_gltf_points_and_lines(reader->context, mode, *list, count,
                                                          &g->indices, &g->element_count);
     g->index_count = (mode == PPMI_GLTF_POINTS ? 1 : 2) * g->element_count;
     if (g->element_count > 0) reader->tally.points_or_lines++;
@@ -132,7 +142,7 @@ static ppm_status read_elements(ppmi_gltf_reader *reader, const ppmi_gltf_primit
     size_t count = 0;
     ppm_status status = read_index_list(reader, primitive, place, g->vertex_count, &list, &count);
     if (status == PPM_STATUS_OK) {
-        status = make_elements(reader, mode_of(reader, primitive), list, count, g);
+        status = make_elements(reader, mode_of(reader, primitive), &list, count, g);
         if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
     }
     ppmi_free(reader->context, list);
@@ -225,6 +235,17 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
 }
 
+/* After a large mesh the file's pages are in memory, and their values again in its arrays. */
+static void forget_what_was_large(ppmi_gltf_reader *reader, const ppmi_gltf_geometry *all,
+                                  size_t count)
+{
+    size_t vertices = 0;
+    for (size_t i = 0; i < count; ++i) {
+        vertices += all[i].vertex_count;
+    }
+    if (vertices > LARGE_MESH_VERTICES) ppmi_gltf_forget_files(reader);
+}
+
 static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id *out_id)
 {
     const ppmi_gltf_mesh *mesh = &reader->document->meshes[index];
@@ -241,7 +262,10 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_
         ppmi_gltf_place(place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
         status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
     }
-    if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, out_id);
+    if (status == PPM_STATUS_OK) {
+        forget_what_was_large(reader, all, mesh->primitive_count);
+        status = emit(reader, mesh, all, descs, out_id);
+    }
     for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
         free_geometry(reader->context, &all[i]);
         ppmi_gltf_decoded_release(reader, &mesh->primitives[i]);
