@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a .glb of many triangles: a bumpy sheet, cut into meshes. Only Python itself is needed.
 
-    big_glb.py OUT.glb [--triangles 10000000] [--meshes 1] [--normals]
+    big_glb.py OUT.glb [--triangles 10000000] [--meshes 1] [--normals] [--normal-map]
 """
 import argparse
 import array
@@ -16,6 +16,8 @@ def parse():
     parser.add_argument("--triangles", type=int, default=10_000_000)
     parser.add_argument("--meshes", type=int, default=1)
     parser.add_argument("--normals", action="store_true", help="normals and texture coordinates")
+    parser.add_argument("--normal-map", action="store_true",
+                        help="a material whose tangents must be computed, with --normals")
     return parser.parse_args()
 
 
@@ -91,7 +93,17 @@ def add_mesh(writer, options, side, rows, first_row):
         attributes["NORMAL"] = writer.add(normals(side, rows, first_row), "VEC3", 5126, 3)
         attributes["TEXCOORD_0"] = writer.add(coordinates(side, rows, first_row), "VEC2", 5126, 2)
     elements = writer.add(indices(side, rows), "SCALAR", 5125, 1)
-    return {"primitives": [{"attributes": attributes, "indices": elements}]}
+    primitive = {"attributes": attributes, "indices": elements}
+    if options.normal_map:
+        primitive["material"] = 0
+    return {"primitives": [primitive]}
+
+
+# One pixel, (0, 0, 1) as a normal.
+PNG = ("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNo"
+       "aPgPAAODAgAApfuJAAAAAElFTkSuQmCC")
+MAPPED = {"materials": [{"normalTexture": {"index": 0}}], "textures": [{"source": 0}],
+          "images": [{"uri": "data:image/png;base64," + PNG}]}
 
 
 def main():
@@ -103,7 +115,7 @@ def main():
         file.seek(12 + 8 + room + 8)
         writer = Writer(file)
         meshes = [add_mesh(writer, options, side, b - a, a) for a, b in zip(cuts, cuts[1:]) if b > a]
-        text = json.dumps({
+        text = json.dumps({**(MAPPED if options.normal_map else {}),
             "asset": {"version": "2.0", "generator": "big_glb.py"}, "scene": 0,
             "scenes": [{"nodes": list(range(len(meshes)))}],
             "nodes": [{"mesh": i} for i in range(len(meshes))], "meshes": meshes,
