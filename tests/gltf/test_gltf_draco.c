@@ -292,6 +292,26 @@ static void a_stream_that_is_cut_or_changed_ends_in_a_status(void **state)
                        PPM_STATUS_INPUT_INVALID);
 }
 
+static void memory_that_is_out_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    unsigned char stream[8192];
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    size_t n = 0;
+    grid g;
+    make_grid(&g);
+    const size_t length = encode(&g, DRACO_EDGEBREAKER, stream, sizeof stream);
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        gltf_reset(f);
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = import_stream(f, stream, length, VERTICES, 3 * (size_t)TRIANGLES, 4, 1);
+        ppmi_alloc_fail_at(f->context, 0);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 20);
+    check_equal(f, &g);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -302,6 +322,7 @@ int main(void)
         TEST(counts_and_ids_that_disagree_are_refused),
         TEST(a_broken_stream_is_an_error_only_where_it_is_used),
         TEST(many_streams_are_decoded_ahead_and_none_is_mixed_up),
+        TEST(memory_that_is_out_is_told),
         TEST(a_compressed_mesh_equals_the_plain_one),
         TEST(strips_come_as_lists),
     };

@@ -83,42 +83,61 @@ static void the_coordinates_are_those_of_the_normal_map(void **state)
     }
 }
 
-static void split_vertices_keep_their_attributes(void **state)
-{
-    gltf_fixture *f = *state;
-    /* two triangles about the edge x = 0 with mirrored coordinates */
-    static const struct {
-        float positions[12], normals[12], uvs[8], colors[16];
-        uint16_t indices[6];
-    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0},
+/* Two triangles about the edge x = 0 with mirrored coordinates. */
+static const struct {
+    float positions[12], normals[12], uvs[8], colors[16];
+    uint16_t indices[6];
+} mirrored = {{0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0},
               {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
               {0, 0, 1, 0, 0, 1, 1, 0},
               {.1f, 0, 0, 1, .2f, 0, 0, 1, .3f, 0, 0, 1, .4f, 0, 0, 1},
               {0, 1, 2, 0, 2, 3}};
-    assert_gltf_status(
+
+static ppm_status import_mirrored(gltf_fixture *f)
+{
+    return gltf_importf(
         f,
-        gltf_importf(
-            f,
-            "{" GLTF_HEAD "'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{"
-            "'POSITION':0,'NORMAL':1,'TEXCOORD_0':2,'COLOR_0':3},'indices':4,'material':0}]}],"
-            "'materials':[{'normalTexture':{'index':0}}],'textures':[{'source':0}],"
-            "'images':[{'uri':'data:image/png;base64,AAAA'}],"
-            "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
-            "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':4,'type':'VEC3'},"
-            "{'bufferView':0,'byteOffset':96,'componentType':5126,'count':4,'type':'VEC2'},"
-            "{'bufferView':0,'byteOffset':128,'componentType':5126,'count':4,'type':'VEC4'},"
-            "{'bufferView':0,'byteOffset':192,'componentType':5123,'count':6,'type':'SCALAR'}],"
-            "'bufferViews':[{'buffer':0,'byteLength':204}],"
-            "'buffers':[{'byteLength':204,'uri':'%s'}]}",
-            gltf_data_uri(&data, 204)),
-        PPM_STATUS_OK);
+        "{" GLTF_HEAD "'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{"
+        "'POSITION':0,'NORMAL':1,'TEXCOORD_0':2,'COLOR_0':3},'indices':4,'material':0}]}],"
+        "'materials':[{'normalTexture':{'index':0}}],'textures':[{'source':0}],"
+        "'images':[{'uri':'data:image/png;base64,AAAA'}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':48,'componentType':5126,'count':4,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':96,'componentType':5126,'count':4,'type':'VEC2'},"
+        "{'bufferView':0,'byteOffset':128,'componentType':5126,'count':4,'type':'VEC4'},"
+        "{'bufferView':0,'byteOffset':192,'componentType':5123,'count':6,'type':'SCALAR'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':204}],"
+        "'buffers':[{'byteLength':204,'uri':'%s'}]}",
+        gltf_data_uri(&mirrored, 204));
+}
+
+static void memory_that_is_out_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    size_t n = 0;
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        gltf_reset(f);
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = import_mirrored(f);
+        ppmi_alloc_fail_at(f->context, 0);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 30);
+    assert_int_equal(first(f)->vertex_count, 6);
+}
+
+static void split_vertices_keep_their_attributes(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f, import_mirrored(f), PPM_STATUS_OK);
     const ppmi_primitive *p = first(f);
     assert_int_equal(p->vertex_count, 6);
     for (uint32_t i = 0; i < 6; ++i) {
-        const uint32_t got = p->indices[i], wanted = data.indices[i];
-        assert_memory_equal(p->positions + 3 * got, data.positions + 3 * wanted, 12);
-        assert_memory_equal(p->uvs[0] + 2 * got, data.uvs + 2 * wanted, 8);
-        assert_memory_equal(p->colors + 4 * got, data.colors + 4 * wanted, 16);
+        const uint32_t got = p->indices[i], wanted = mirrored.indices[i];
+        assert_memory_equal(p->positions + 3 * got, mirrored.positions + 3 * wanted, 12);
+        assert_memory_equal(p->uvs[0] + 2 * got, mirrored.uvs + 2 * wanted, 8);
+        assert_memory_equal(p->colors + 4 * got, mirrored.colors + 4 * wanted, 16);
         assert_float_equal(p->tangents[4 * got], i < 3 ? 1.0f : -1.0f, 1e-6f);
         assert_float_equal(p->tangents[4 * got + 3], i < 3 ? -1.0f : 1.0f, 0.0f);
     }
@@ -218,6 +237,7 @@ int main(void)
         TEST(without_a_normal_map_there_are_none),
         TEST(without_normals_or_coordinates_there_are_none),
         TEST(the_coordinates_are_those_of_the_normal_map),
+        TEST(memory_that_is_out_is_told),
         TEST(split_vertices_keep_their_attributes),
         TEST(tangents_are_those_of_other_programs),
     };
