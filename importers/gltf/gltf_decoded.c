@@ -175,7 +175,7 @@ ppm_status ppmi_gltf_decoded_view(ppmi_gltf_reader *reader, int32_t view,
     const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
     const char *fault = NULL;
     char place[PPMI_GLTF_PLACE];
-    ppmi_gltf_place(place, "bufferViews[%d].extensions.meshopt_compression", (int)view);
+    ppmi_gltf_place(place, "bufferViews[%d].extensions.%s", (int)view, item->meshopt.name);
     ppmi_gltf_decoded *decoded = get_tables(reader);
     *out_bytes = NULL;
     if (!decoded) return ppmi_gltf_out_of_memory(reader, place);

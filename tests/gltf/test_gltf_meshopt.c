@@ -366,7 +366,7 @@ static void what_a_stream_cannot_be_is_refused_with_its_place(void **state)
             f,
             import_with(f, &data, "EXT_meshopt_compression", view_text(&data, cases[i].view), ""),
             PPM_STATUS_INPUT_INVALID);
-        assert_gltf_logged(f, 'E', "bufferViews[0]");
+        assert_gltf_logged(f, 'E', "bufferViews[0].extensions.EXT_meshopt_compression");
         assert_gltf_logged(f, 'E', cases[i].message);
         gltf_reset(f);
     }
