@@ -6,9 +6,10 @@
 
 /* All arrays are owned until the scene has copied them. */
 typedef struct ppmi_gltf_geometry {
+    size_t vertex_count, triangle_count;
     int32_t kind;         /* PPM_PRIMITIVE_ */
-    size_t element_count; /* triangles, points or segments; 0: nothing to draw */
-    size_t vertex_count, index_count;
+    size_t element_count; /* points or segments, 0 for triangles */
+    size_t index_count;   /* 0: nothing to draw */
     float *positions, *normals, *tangents, *colors;
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;

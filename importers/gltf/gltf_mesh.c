@@ -115,16 +115,16 @@ static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, uint32_t
 {
     if (mode == PPMI_GLTF_TRIANGLES) {
         if (count % 3 != 0) reader->tally.broken_counts++;
-        g->element_count = count / 3;
-        g->index_count = 3 * g->element_count;
+        g->triangle_count = count / 3;
+        g->index_count = 3 * g->triangle_count;
         g->indices = *list;
         *list = NULL;
         return PPM_STATUS_OK;
     }
     if (mode >= PPMI_GLTF_TRIANGLES) {
         const ppm_status status = ppmi_gltf_triangles(reader->context, mode, *list, count,
-                                                      &g->indices, &g->element_count);
-        g->index_count = 3 * g->element_count;
+                                                      &g->indices, &g->triangle_count);
+        g->index_count = 3 * g->triangle_count;
         return status;
     }
     g->kind = mode == PPMI_GLTF_POINTS ? PPM_PRIMITIVE_POINTS : PPM_PRIMITIVE_LINES;
@@ -146,7 +146,8 @@ static ppm_status read_elements(ppmi_gltf_reader *reader, const ppmi_gltf_primit
         if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
     }
     ppmi_free(reader->context, list);
-    if (status == PPM_STATUS_OK && g->element_count > UINT32_MAX) {
+    if (status == PPM_STATUS_OK &&
+        (g->triangle_count > UINT32_MAX || g->element_count > UINT32_MAX)) {
         return ppmi_gltf_invalid(reader, place, "more than 2^32 triangles");
     }
     return status;
@@ -165,7 +166,7 @@ static void count_unused(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *pr
     }
 }
 
-/* Fills g; g->element_count stays 0 for what cannot be drawn. */
+/* Fills g; g->index_count stays 0 for what cannot be drawn. */
 static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                  const char *place, ppmi_gltf_geometry *g)
 {
@@ -184,7 +185,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
         return ppmi_gltf_invalid(reader, inner, "more than 2^32 vertices");
     }
     status = read_elements(reader, primitive, place, g);
-    if (status != PPM_STATUS_OK || g->element_count == 0) return status;
+    if (status != PPM_STATUS_OK || g->index_count == 0) return status;
     count_unused(reader, primitive);
     status = read_attributes(reader, primitive, place, g);
     if (status != PPM_STATUS_OK) return status;
@@ -197,12 +198,11 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 
 static void describe(const ppmi_gltf_geometry *g, float radius_m, ppm_primitive_desc *out)
 {
-    const bool is_triangles = g->kind == PPM_PRIMITIVE_TRIANGLES;
     *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertex_count,
-                                .triangle_count = is_triangles ? (uint32_t)g->element_count : 0,
+                                .triangle_count = (uint32_t)g->triangle_count,
                                 .kind = g->kind,
-                                .element_count = is_triangles ? 0 : (uint32_t)g->element_count,
-                                .radius_m = is_triangles ? 0.0f : radius_m,
+                                .element_count = (uint32_t)g->element_count,
+                                .radius_m = g->kind == PPM_PRIMITIVE_TRIANGLES ? 0.0f : radius_m,
                                 .positions = g->positions,
                                 .normals = g->normals,
                                 .tangents = g->tangents,
@@ -223,7 +223,7 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
     uint32_t count = 0;
     const float radius_m = ppmi_gltf_line_radius(all, mesh->primitive_count);
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
-        if (all[i].element_count > 0) describe(&all[i], radius_m, &descs[count++]);
+        if (all[i].index_count > 0) describe(&all[i], radius_m, &descs[count++]);
     }
     *out_id = 0;
     if (count == 0) return PPM_STATUS_OK;

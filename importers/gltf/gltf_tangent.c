@@ -72,7 +72,7 @@ ppm_status ppmi_gltf_add_tangents(ppmi_gltf_reader *reader, int32_t material, co
                                     .v_runs_down = true,
                                     .vertex_count = (uint32_t)g->vertex_count,
                                     .indices = g->indices,
-                                    .triangle_count = (uint32_t)g->element_count};
+                                    .triangle_count = (uint32_t)g->triangle_count};
     ppmi_tangent_result result;
     ppm_status status = ppmi_tangent_compute(reader->context, &mesh, &result);
     if (status == PPM_STATUS_OK && !take_vertices(reader->context, g, &result)) {
