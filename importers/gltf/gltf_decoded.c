@@ -14,6 +14,7 @@ enum { MAX_FACES_PER_BYTE = 64, MAX_SMALL_FACES = 65536 };
 /* Where the elements of an accessor are, and those elements once decoded. */
 typedef struct draco_source {
     const ppmi_gltf_primitive *primitive; /* NULL: in no stream */
+    size_t stream;                        /* of the primitive */
     int32_t id;                           /* of the attribute, or DRACO_INDICES */
     unsigned char *bytes;
     size_t count; /* elements */
@@ -21,10 +22,22 @@ typedef struct draco_source {
 
 enum { DRACO_INDICES = -1 };
 
+/* A primitive's stream, perhaps decoded ahead of its use. */
+typedef struct draco_stream {
+    const ppmi_gltf_primitive *primitive;
+    ppmi_gltf_draco *draco; /* NULL: not decoded, or broken */
+    bool is_tried;
+} draco_stream;
+
+/* Streams that are decoded together, each by a thread. What they hold is in memory at once. */
+enum { STREAMS_AT_ONCE = 16 };
+
 struct ppmi_gltf_decoded {
     unsigned char **views; /* by buffer view; NULL: not decoded */
     bool *is_given_up;     /* by buffer view: the plain data are used */
     draco_source *sources; /* by accessor */
+    draco_stream *streams;
+    size_t stream_count;
 };
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -39,7 +52,8 @@ static void add_source(const ppmi_gltf_document *document, ppmi_gltf_decoded *de
                        int32_t accessor, const ppmi_gltf_primitive *primitive, int32_t id)
 {
     if (!has_no_view(document, accessor) || decoded->sources[accessor].primitive) return;
-    decoded->sources[accessor] = (draco_source){.primitive = primitive, .id = id};
+    decoded->sources[accessor] =
+        (draco_source){.primitive = primitive, .stream = decoded->stream_count, .id = id};
 }
 
 /* Attributes are found by their names, in the primitive and in the extension. */
@@ -56,6 +70,18 @@ static void add_primitive(const ppmi_gltf_document *document, ppmi_gltf_decoded 
             add_source(document, decoded, outside->accessor, primitive, inside->accessor);
         }
     }
+    decoded->streams[decoded->stream_count++] = (draco_stream){.primitive = primitive};
+}
+
+static size_t count_streams(const ppmi_gltf_document *document)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < document->mesh_count; ++i) {
+        for (uint32_t k = 0; k < document->meshes[i].primitive_count; ++k) {
+            count += document->meshes[i].primitives[k].is_draco;
+        }
+    }
+    return count;
 }
 
 /* The tables, made when they are first asked for; NULL when memory is out. */
@@ -73,7 +99,9 @@ static ppmi_gltf_decoded *get_tables(ppmi_gltf_reader *reader)
                                              sizeof *decoded->is_given_up);
     decoded->sources =
         ppmi_alloc_zeroed(reader->context, document->accessor_count + 1, sizeof *decoded->sources);
-    if (!decoded->views || !decoded->is_given_up || !decoded->sources) {
+    decoded->streams =
+        ppmi_alloc_zeroed(reader->context, count_streams(document) + 1, sizeof *decoded->streams);
+    if (!decoded->views || !decoded->is_given_up || !decoded->sources || !decoded->streams) {
         ppmi_gltf_decoded_deinit(reader);
         return NULL;
     }
@@ -95,6 +123,10 @@ void ppmi_gltf_decoded_deinit(ppmi_gltf_reader *reader)
     for (size_t i = 0; decoded->sources && i < reader->document->accessor_count; ++i) {
         ppmi_free(reader->context, decoded->sources[i].bytes);
     }
+    for (size_t i = 0; decoded->streams && i < decoded->stream_count; ++i) {
+        ppmi_gltf_draco_destroy(decoded->streams[i].draco);
+    }
+    ppmi_free(reader->context, decoded->streams);
     ppmi_free(reader->context, decoded->views);
     ppmi_free(reader->context, decoded->is_given_up);
     ppmi_free(reader->context, decoded->sources);
@@ -143,7 +175,7 @@ ppm_status ppmi_gltf_decoded_view(ppmi_gltf_reader *reader, int32_t view,
     const ppmi_gltf_buffer_view *item = &reader->document->buffer_views[view];
     const char *fault = NULL;
     char place[PPMI_GLTF_PLACE];
-    ppmi_gltf_place(place, "bufferViews[%d].extensions.meshopt_compression", (int)view);
+    ppmi_gltf_place(place, "bufferViews[%d].extensions.%s", (int)view, item->meshopt.name);
     ppmi_gltf_decoded *decoded = get_tables(reader);
     *out_bytes = NULL;
     if (!decoded) return ppmi_gltf_out_of_memory(reader, place);
@@ -287,6 +319,11 @@ static uint32_t count_faces(const ppmi_gltf_document *document,
     return faces < UINT32_MAX / 3 ? (uint32_t)faces : UINT32_MAX / 3;
 }
 
+static bool can_be_draco(const ppmi_gltf_primitive *primitive)
+{
+    return primitive->mode == PPMI_GLTF_TRIANGLES || primitive->mode == PPMI_GLTF_TRIANGLE_STRIP;
+}
+
 static ppm_status decode_stream(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                 const char *place, ppmi_gltf_draco **out)
 {
@@ -296,7 +333,7 @@ static ppm_status decode_stream(ppmi_gltf_reader *reader, const ppmi_gltf_primit
     ppm_status status =
         ppmi_gltf_view_bytes(reader, primitive->draco_view, place, &stream, &length);
     if (status != PPM_STATUS_OK) return status;
-    if (primitive->mode != PPMI_GLTF_TRIANGLES && primitive->mode != PPMI_GLTF_TRIANGLE_STRIP) {
+    if (!can_be_draco(primitive)) {
         return ppmi_gltf_invalid(reader, place,
                                  "mode %d: Draco streams hold triangles or strips of them",
                                  (int)primitive->mode);
@@ -306,6 +343,77 @@ static ppm_status decode_stream(ppmi_gltf_reader *reader, const ppmi_gltf_primit
     if (status == PPM_STATUS_OUT_OF_MEMORY) return ppmi_gltf_out_of_memory(reader, place);
     if (status == PPM_STATUS_OK) return status;
     return ppmi_fail(reader->context, status, "%s: %s: %s", reader->path, place, reason);
+}
+
+/* Whether the bytes of a stream are there without reading, decoding or a message. */
+static bool find_stream(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                        const unsigned char **out_bytes, size_t *out_length)
+{
+    char reason[PPMI_GLTF_PLACE];
+    if (!ppmi_gltf_is_usable(reader, PPMI_GLTF_BUFFER_VIEWS, primitive->draco_view, reason,
+                             sizeof reason)) {
+        return false;
+    }
+    const ppmi_gltf_buffer_view *view = &reader->document->buffer_views[primitive->draco_view];
+    if (view->meshopt.is_given || view->buffer < 0 ||
+        (size_t)view->buffer >= reader->outline.buffers.count) {
+        return false;
+    }
+    const ppmi_gltf_bytes *buffer = &reader->buffers[view->buffer];
+    const size_t length = reader->outline.buffers.items[view->buffer].byte_length;
+    if (!buffer->data || view->byte_offset > length ||
+        view->byte_length > length - view->byte_offset) {
+        return false;
+    }
+    *out_bytes = buffer->data + view->byte_offset;
+    *out_length = view->byte_length;
+    return true;
+}
+
+static void try_stream(const ppmi_gltf_reader *reader, draco_stream *stream)
+{
+    const unsigned char *bytes;
+    size_t length;
+    const char *reason;
+    const ppmi_gltf_primitive *primitive = stream->primitive;
+    if (stream->is_tried) return;
+    stream->is_tried = true;
+    if (!can_be_draco(primitive) || !find_stream(reader, primitive, &bytes, &length)) return;
+    const uint32_t faces = count_faces(reader->document, primitive, length);
+    const ppm_status status = ppmi_gltf_draco_create(bytes, length, faces, &reason, &stream->draco);
+    if (status != PPM_STATUS_OK) stream->draco = NULL;
+}
+
+/* Decodes a stream and those after it in the file, which are likely to be asked for next. Without
+ * messages: a broken one is decoded again where it is used, and told there. */
+static void decode_ahead(const ppmi_gltf_reader *reader, size_t first)
+{
+    const ppmi_gltf_decoded *decoded = reader->decoded;
+    const size_t left = decoded->stream_count - first;
+    const int64_t count = (int64_t)(left < STREAMS_AT_ONCE ? left : STREAMS_AT_ONCE);
+    if (decoded->streams[first].is_tried) return;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (int64_t i = 0; i < count; ++i) {
+        try_stream(reader, &decoded->streams[first + (size_t)i]);
+    }
+}
+
+/* The decoded stream, which is the caller's. */
+static ppm_status take_stream(ppmi_gltf_reader *reader, size_t index, const char *place,
+                              ppmi_gltf_draco **out)
+{
+    draco_stream *stream = &reader->decoded->streams[index];
+    const unsigned char *bytes;
+    size_t length;
+    /* loads the buffer, which the others are in as a rule */
+    const ppm_status status =
+        ppmi_gltf_view_bytes(reader, stream->primitive->draco_view, place, &bytes, &length);
+    if (status != PPM_STATUS_OK) return status;
+    decode_ahead(reader, index);
+    if (!stream->draco) return decode_stream(reader, stream->primitive, place, out);
+    *out = stream->draco;
+    stream->draco = NULL;
+    return PPM_STATUS_OK;
 }
 
 /* All accessors of the stream at once: decoding it is what takes time. */
@@ -337,7 +445,7 @@ ppm_status ppmi_gltf_decoded_accessor(ppmi_gltf_reader *reader, int32_t accessor
     ppm_status status = PPM_STATUS_OK;
     if (!source->bytes) {
         ppmi_gltf_draco *draco = NULL;
-        status = decode_stream(reader, source->primitive, inner, &draco);
+        status = take_stream(reader, source->stream, inner, &draco);
         if (status == PPM_STATUS_OK) {
             status = extract_all(reader, source->primitive, draco, inner);
         }

@@ -86,7 +86,8 @@ ppm_status decode(const char *bytes, size_t length, uint32_t max_faces, const ch
     // every vertex belongs to a triangle, but for those of a stream without connectivity
     const bool is_too_much = claim.faces > max_faces || claim.vertices / 3 > max_faces;
     if (is_too_much) {
-        *out_reason = "the Draco stream has more triangles than the indices' accessor";
+        *out_reason =
+            "the Draco stream claims more triangles than the indices' accessor or its length allow";
         return PPM_STATUS_INPUT_INVALID;
     }
     draco::DecoderBuffer buffer;

@@ -1,9 +1,8 @@
 /* Files: the .gltf or .glb itself, its chunks (glTF 2.0 specification, section 4.4), and buffers.
- * A .glb is read once; its BIN chunk is used where it lies. Buffers are read when something uses
+ * A .glb is there once; its BIN chunk is used where it lies. Buffers are read when something uses
  * them first, so that an unused one may be missing. */
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "gltf/gltf_decoded.h"
 #include "gltf/gltf_reader.h"
@@ -12,51 +11,6 @@
 enum { HEADER_SIZE = 12, CHUNK_HEADER_SIZE = 8 };
 #define CHUNK_JSON 0x4e4f534au
 #define CHUNK_BIN 0x004e4942u
-
-/* Opens a regular file (no folder, pipe or device) and finds its size; NULL when that fails. */
-static FILE *open_regular(const char *path, size_t *out_size)
-{
-    struct stat info;
-    FILE *file = fopen(path, "rb");
-    if (!file) return NULL;
-    if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode)) {
-        fclose(file);
-        return NULL;
-    }
-    *out_size = (size_t)info.st_size;
-    return file;
-}
-
-/* The first wanted bytes of a file, all of it for 0; *out_bytes is the caller's. Returns OK,
- * INPUT_NOT_FOUND, INPUT_INVALID, OUT_OF_MEMORY, unreported, with the reason. */
-static ppm_status read_bytes(ppm_context *context, const char *path, size_t wanted,
-                             unsigned char **out_bytes, size_t *out_count, const char **reason)
-{
-    size_t size = 0;
-    ppm_status status = PPM_STATUS_INPUT_INVALID;
-    FILE *file = open_regular(path, &size);
-    *reason = "the file cannot be opened";
-    *out_bytes = NULL;
-    if (!file) return PPM_STATUS_INPUT_NOT_FOUND;
-    *out_count = wanted > 0 ? wanted : size;
-    if (size == 0) {
-        *reason = "the file is empty";
-    } else if (size < *out_count) {
-        *reason = "the file is shorter than byteLength";
-    } else {
-        *out_bytes = ppmi_alloc(context, *out_count, 1);
-        *reason = *out_bytes ? "the file cannot be read" : "out of memory";
-        if (!*out_bytes) status = PPM_STATUS_OUT_OF_MEMORY;
-    }
-    if (*out_bytes && fread(*out_bytes, 1, *out_count, file) == *out_count) {
-        status = PPM_STATUS_OK;
-    } else {
-        ppmi_free(context, *out_bytes);
-        *out_bytes = NULL;
-    }
-    fclose(file);
-    return status;
-}
 
 static uint32_t load_u32(const unsigned char *bytes)
 {
@@ -119,10 +73,12 @@ ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader)
     static const char byte_order_mark[] = "\xef\xbb\xbf";
     const char *reason;
     const ppm_status status =
-        read_bytes(reader->context, reader->path, 0, &reader->file, &reader->file_size, &reason);
+        ppmi_gltf_map_open(reader->context, reader->path, 0, &reader->file_map, &reason);
     if (status != PPM_STATUS_OK) {
         return ppmi_fail(reader->context, status, "%s: %s", reader->path, reason);
     }
+    reader->file = reader->file_map.bytes;
+    reader->file_size = reader->file_map.count;
     if (reader->file_size >= 4 && memcmp(reader->file, "glTF", 4) == 0) return split_glb(reader);
     reader->json = (const char *)reader->file;
     reader->json_length = reader->file_size;
@@ -148,6 +104,24 @@ const char *ppmi_gltf_unescape_uri(ppmi_gltf_reader *reader, ppmi_gltf_span span
     return *out_owned;
 }
 
+static ppm_status read_copy(ppm_context *context, const char *path, unsigned char **out_bytes,
+                            size_t *out_count, const char **reason)
+{
+    ppmi_gltf_map map;
+    ppm_status status = ppmi_gltf_map_open(context, path, 0, &map, reason);
+    if (status != PPM_STATUS_OK) return status;
+    *out_bytes = ppmi_alloc(context, map.count, 1);
+    if (*out_bytes) {
+        memcpy(*out_bytes, map.bytes, map.count);
+        *out_count = map.count;
+    } else {
+        *reason = "out of memory";
+        status = PPM_STATUS_OUT_OF_MEMORY;
+    }
+    ppmi_gltf_map_close(context, &map);
+    return status;
+}
+
 ppm_status ppmi_gltf_read_uri(ppmi_gltf_reader *reader, const char *uri, size_t length,
                               unsigned char **out_bytes, size_t *out_count, const char **reason)
 {
@@ -160,8 +134,7 @@ ppm_status ppmi_gltf_read_uri(ppmi_gltf_reader *reader, const char *uri, size_t 
     }
     ppm_status status = ppmi_gltf_uri_path(
         context, reader->path, reader->options->allow_outside != 0, uri, length, &path, reason);
-    if (status == PPM_STATUS_OK)
-        status = read_bytes(context, path, 0, out_bytes, out_count, reason);
+    if (status == PPM_STATUS_OK) status = read_copy(context, path, out_bytes, out_count, reason);
     ppmi_free(context, path);
     return status;
 }
@@ -183,12 +156,13 @@ static ppm_status load_from_uri(ppmi_gltf_reader *reader, const char *uri, size_
         status = ppmi_gltf_uri_path(context, reader->path, reader->options->allow_outside != 0, uri,
                                     length, &path, &reason);
         if (status == PPM_STATUS_OK) {
-            status = read_bytes(context, path, wanted, &out->owned, &out->count, &reason);
+            status = ppmi_gltf_map_open(context, path, wanted, &out->map, &reason);
+            out->count = out->map.count;
         }
     }
     ppmi_free(context, path);
     if (status == PPM_STATUS_OK) {
-        out->data = out->owned;
+        out->data = out->owned ? out->owned : out->map.bytes;
         return status;
     }
     ppmi_free(context, out->owned);
@@ -219,6 +193,23 @@ static ppm_status load_buffer(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
     out->data = reader->chunk;
     out->count = source->byte_length;
     return PPM_STATUS_OK;
+}
+
+void ppmi_gltf_forget_files(ppmi_gltf_reader *reader)
+{
+    ppmi_gltf_map_forget(&reader->file_map);
+    for (size_t i = 0; reader->buffers && i < reader->outline.buffers.count; ++i) {
+        ppmi_gltf_map_forget(&reader->buffers[i].map);
+    }
+}
+
+void ppmi_gltf_close_files(ppmi_gltf_reader *reader)
+{
+    for (size_t i = 0; reader->buffers && i < reader->outline.buffers.count; ++i) {
+        ppmi_free(reader->context, reader->buffers[i].owned);
+        ppmi_gltf_map_close(reader->context, &reader->buffers[i].map);
+    }
+    ppmi_gltf_map_close(reader->context, &reader->file_map);
 }
 
 ppm_status ppmi_gltf_buffer_bytes(ppmi_gltf_reader *reader, int32_t buffer, size_t byte_offset,

@@ -6,9 +6,10 @@
 
 /* All arrays are owned until the scene has copied them. */
 typedef struct ppmi_gltf_geometry {
+    size_t vertex_count, triangle_count;
     int32_t kind;         /* PPM_PRIMITIVE_ */
-    size_t element_count; /* triangles, points or segments; 0: nothing to draw */
-    size_t vertex_count, index_count;
+    size_t element_count; /* points or segments, 0 for triangles */
+    size_t index_count;   /* 0: nothing to draw */
     float *positions, *normals, *tangents, *colors;
     bool is_taken; /* the first three belong to what deforms the mesh */
     float *uvs[PPM_MAX_UV_SETS];
@@ -34,6 +35,11 @@ ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const 
 
 /* That radius, from the vertices of all primitives of a mesh. */
 float ppmi_gltf_line_radius(const ppmi_gltf_geometry *primitives, size_t count);
+
+/* Computes tangents for triangles that have normals, coordinates and no tangents, where a material
+ * (its number in the file) has a normal map. Vertices may be added. */
+ppm_status ppmi_gltf_add_tangents(ppmi_gltf_reader *reader, int32_t material, const char *place,
+                                  ppmi_gltf_geometry *geometry);
 
 /* Drops the vertices that no element uses: primitives often share one long vertex list, each with
  * its own part of it. False when memory is out. */

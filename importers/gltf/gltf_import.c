@@ -137,9 +137,7 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
 
 static void deinit(ppmi_gltf_reader *r)
 {
-    for (size_t i = 0; r->buffers && i < r->outline.buffers.count; ++i) {
-        ppmi_free(r->context, r->buffers[i].owned);
-    }
+    ppmi_gltf_close_files(r);
     ppmi_free(r->context, r->buffers);
     ppmi_free(r->context, r->images);
     ppmi_free(r->context, r->profiles);
@@ -154,7 +152,6 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_gltf_placements_destroy(r);
     ppmi_gltf_document_destroy(r->document);
     ppmi_gltf_outline_deinit(r->context, &r->outline);
-    ppmi_free(r->context, r->file);
 }
 
 ppm_status ppmi_gltf_asset_open(ppm_context *context, const char *path,

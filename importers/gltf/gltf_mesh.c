@@ -8,6 +8,8 @@
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
+enum { LARGE_MESH_VERTICES = 1 << 20 };
+
 static const ppmi_gltf_format vec2_format = {2, 2, 2, false};
 static const ppmi_gltf_format vec3_format = {3, 3, 3, false};
 static const ppmi_gltf_format vec4_format = {4, 4, 4, false};
@@ -110,18 +112,26 @@ static int32_t mode_of(const ppmi_gltf_reader *reader, const ppmi_gltf_primitive
     return is_draco ? PPMI_GLTF_TRIANGLES : primitive->mode;
 }
 
-static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, const uint32_t *list,
+/* Takes the list where it is a triangle list already: *list is then NULL. */
+static ppm_status make_elements(ppmi_gltf_reader *reader, int32_t mode, uint32_t **list,
                                 size_t count, ppmi_gltf_geometry *g)
 {
-    if (mode == PPMI_GLTF_TRIANGLES && count % 3 != 0) reader->tally.broken_counts++;
+    if (mode == PPMI_GLTF_TRIANGLES) {
+        if (count % 3 != 0) reader->tally.broken_counts++;
+        g->triangle_count = count / 3;
+        g->index_count = 3 * g->triangle_count;
+        g->indices = *list;
+        *list = NULL;
+        return PPM_STATUS_OK;
+    }
     if (mode >= PPMI_GLTF_TRIANGLES) {
-        const ppm_status status =
-            ppmi_gltf_triangles(reader->context, mode, list, count, &g->indices, &g->element_count);
-        g->index_count = 3 * g->element_count;
+        const ppm_status status = ppmi_gltf_triangles(reader->context, mode, *list, count,
+                                                      &g->indices, &g->triangle_count);
+        g->index_count = 3 * g->triangle_count;
         return status;
     }
     g->kind = mode == PPMI_GLTF_POINTS ? PPM_PRIMITIVE_POINTS : PPM_PRIMITIVE_LINES;
-    const ppm_status status = ppmi_gltf_points_and_lines(reader->context, mode, list, count,
+    const ppm_status status = ppmi_gltf_points_and_lines(reader->context, mode, *list, count,
                                                          &g->indices, &g->element_count);
     g->index_count = (mode == PPMI_GLTF_POINTS ? 1 : 2) * g->element_count;
     return status;
@@ -134,17 +144,18 @@ static ppm_status read_elements(ppmi_gltf_reader *reader, const ppmi_gltf_primit
     size_t count = 0;
     ppm_status status = read_index_list(reader, primitive, place, g->vertex_count, &list, &count);
     if (status == PPM_STATUS_OK) {
-        status = make_elements(reader, mode_of(reader, primitive), list, count, g);
+        status = make_elements(reader, mode_of(reader, primitive), &list, count, g);
         if (status != PPM_STATUS_OK) ppmi_gltf_out_of_memory(reader, place);
     }
     ppmi_free(reader->context, list);
-    if (status == PPM_STATUS_OK && g->element_count > UINT32_MAX) {
+    if (status == PPM_STATUS_OK &&
+        (g->triangle_count > UINT32_MAX || g->element_count > UINT32_MAX)) {
         return ppmi_gltf_invalid(reader, place, "more than 2^32 triangles");
     }
     return status;
 }
 
-/* Fills g; g->element_count stays 0 for what cannot be drawn. */
+/* Fills g; g->index_count stays 0 for what cannot be drawn. */
 static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                  const char *place, ppmi_gltf_geometry *g)
 {
@@ -162,10 +173,13 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
         return ppmi_gltf_invalid(reader, inner, "more than 2^32 vertices");
     }
     status = read_elements(reader, primitive, place, g);
-    if (status != PPM_STATUS_OK || g->element_count == 0) return status;
+    if (status != PPM_STATUS_OK || g->index_count == 0) return status;
     status = read_attributes(reader, primitive, place, g);
     if (status != PPM_STATUS_OK) return status;
     if (!ppmi_gltf_compact(reader->context, g)) return ppmi_gltf_out_of_memory(reader, place);
+    status =
+        ppmi_gltf_add_tangents(reader, ppmi_gltf_variant_material(reader, primitive), place, g);
+    if (status != PPM_STATUS_OK) return status;
     ppmi_gltf_place(inner, "%s.material", place);
     return ppmi_gltf_use_material(reader, ppmi_gltf_variant_material(reader, primitive), inner,
                                   &g->material);
@@ -173,12 +187,11 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 
 static void describe(const ppmi_gltf_geometry *g, float radius_m, ppm_primitive_desc *out)
 {
-    const bool is_triangles = g->kind == PPM_PRIMITIVE_TRIANGLES;
     *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertex_count,
-                                .triangle_count = is_triangles ? (uint32_t)g->element_count : 0,
+                                .triangle_count = (uint32_t)g->triangle_count,
                                 .kind = g->kind,
-                                .element_count = is_triangles ? 0 : (uint32_t)g->element_count,
-                                .radius_m = is_triangles ? 0.0f : radius_m,
+                                .element_count = (uint32_t)g->element_count,
+                                .radius_m = g->kind == PPM_PRIMITIVE_TRIANGLES ? 0.0f : radius_m,
                                 .positions = g->positions,
                                 .normals = g->normals,
                                 .tangents = g->tangents,
@@ -201,7 +214,7 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
     const float radius_m = ppmi_gltf_line_radius(all, mesh->primitive_count);
     *out_id = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
-        if (all[i].element_count == 0) continue;
+        if (all[i].index_count == 0) continue;
         describe(&all[i], radius_m, &descs[count]);
         if (deform) {
             const ppm_status status = ppmi_gltf_deform_pose(reader, deform, count, &descs[count]);
@@ -216,6 +229,17 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
         .primitive_count = count,
         .primitives = descs};
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
+}
+
+/* After a large mesh the file's pages are in memory, and their values again in its arrays. */
+static void forget_what_was_large(ppmi_gltf_reader *reader, const ppmi_gltf_geometry *all,
+                                  size_t count)
+{
+    size_t vertices = 0;
+    for (size_t i = 0; i < count; ++i) {
+        vertices += all[i].vertex_count;
+    }
+    if (vertices > LARGE_MESH_VERTICES) ppmi_gltf_forget_files(reader);
 }
 
 static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_deform *deform,
@@ -234,11 +258,14 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
     for (uint32_t i = 0; i < mesh->primitive_count && status == PPM_STATUS_OK; ++i) {
         ppmi_gltf_place(place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
         status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
-        if (status == PPM_STATUS_OK && deform && all[i].element_count > 0) {
+        if (status == PPM_STATUS_OK && deform && all[i].index_count > 0) {
             status = ppmi_gltf_deform_read(reader, deform, &mesh->primitives[i], place, &all[i]);
         }
     }
-    if (status == PPM_STATUS_OK) status = emit(reader, mesh, all, descs, deform, out_id);
+    if (status == PPM_STATUS_OK) {
+        forget_what_was_large(reader, all, mesh->primitive_count);
+        status = emit(reader, mesh, all, descs, deform, out_id);
+    }
     if (deform) ppmi_gltf_deform_release(reader->context, deform);
     for (uint32_t i = 0; all && i < mesh->primitive_count; ++i) {
         free_geometry(reader->context, &all[i]);

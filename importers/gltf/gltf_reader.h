@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "gltf/gltf_check.h"
+#include "gltf/gltf_map.h"
 #include "gltf/gltf_report.h"
 #include "gltf/gltf_shim.h"
 #include "ppm/import.h"
@@ -15,7 +16,8 @@ enum { PPMI_GLTF_PLACE = 256 }; /* bytes for a JSON path in a message */
 /* A loaded buffer. */
 typedef struct ppmi_gltf_bytes {
     const unsigned char *data; /* NULL: not loaded yet */
-    unsigned char *owned;      /* data, unless it is the GLB's chunk */
+    unsigned char *owned;      /* data of a data URI */
+    ppmi_gltf_map map;         /* data of a file */
     size_t count;
 } ppmi_gltf_bytes;
 
@@ -50,7 +52,8 @@ struct ppmi_gltf_reader {
     const ppm_import_options *options;
     const char *path; /* of the file; also its name in messages */
 
-    unsigned char *file; /* the whole file */
+    ppmi_gltf_map file_map;
+    const unsigned char *file; /* the whole file */
     size_t file_size;
     const char *json; /* parts of it */
     size_t json_length;
@@ -87,6 +90,11 @@ struct ppmi_gltf_reader {
 
 /* Reads reader->path and finds the JSON and the BIN chunk in it. */
 ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader);
+
+/* Gives back memory of mapped files; what is needed of them comes again. */
+void ppmi_gltf_forget_files(ppmi_gltf_reader *reader);
+/* Closes the file and the buffers' files. */
+void ppmi_gltf_close_files(ppmi_gltf_reader *reader);
 
 /* The bytes of a buffer view, decoded where they are compressed. place is the JSON path of the
  * reference, for messages. The bytes stay valid until the reader ends. */

@@ -335,8 +335,9 @@ const char *keep_word(Document *document, const Value &object, const char *key)
 
 void copy_meshopt(Document *document, const tinygltf::ExtensionMap &map, ppmi_gltf_meshopt *out)
 {
-    const Value *from = &extension(map, "KHR_meshopt_compression");
-    if (!from->IsObject()) from = &extension(map, "EXT_meshopt_compression");
+    out->name = "KHR_meshopt_compression";
+    if (map.count(out->name) == 0) out->name = "EXT_meshopt_compression";
+    const Value *from = &extension(map, out->name);
     out->is_given = from->IsObject();
     if (!out->is_given) return;
     out->buffer = index_or(*from, "buffer", -1);

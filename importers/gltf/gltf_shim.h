@@ -40,6 +40,7 @@ enum {
  * SIZE_MAX. */
 typedef struct ppmi_gltf_meshopt {
     bool is_given;
+    const char *name; /* of the extension */
     int32_t buffer;
     size_t byte_offset, byte_length, byte_stride, count;
     const char *mode, *filter;

@@ -83,3 +83,17 @@ ppm_status ppm_asset_get_feature(const ppm_asset *asset, uint32_t index,
                                        .note = feature->note ? feature->note : ""};
     return PPM_STATUS_OK;
 }
+
+const char *ppm_asset_copyright(const ppm_asset *asset)
+{
+    if (!asset || !asset->gltf) return "";
+    const char *copyright = ppmi_gltf_asset_reader(asset->gltf)->document->copyright;
+    return copyright ? copyright : "";
+}
+
+const char *ppm_asset_xmp(const ppm_asset *asset)
+{
+    if (!asset || !asset->gltf) return "";
+    const char *xmp = ppmi_gltf_asset_reader(asset->gltf)->xmp;
+    return xmp ? xmp : "";
+}

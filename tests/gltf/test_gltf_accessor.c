@@ -157,6 +157,70 @@ static void colors_of_three_components_are_opaque(void **state)
     assert_floats(first(f)->colors, expected, 8);
 }
 
+/* Coordinates of every type that the core and KHR_mesh_quantization allow. */
+static void coordinates_of_every_component_type_are_read(void **state)
+{
+    gltf_fixture *f = *state;
+    static const int8_t i8[] = {0, 0, 0, 0, -127, 64, 0, 0, 3, 127, 0, 0}; /* stride 4 */
+    static const uint8_t u8[] = {0, 0, 0, 0, 255, 51, 0, 0, 3, 128, 0, 0};
+    static const int16_t i16[] = {0, 0, -32767, 300, 3, 32767};
+    static const uint16_t u16[] = {0, 0, 65535, 13107, 3, 300};
+    static const struct {
+        int type;
+        const char *normalized;
+        const void *bytes;
+        float expected[6];
+    } cases[] = {
+        {5120, "false", i8, {0, 0, -127, 64, 3, 127}},
+        {5120, "true", i8, {0, 0, -1, 64.0f / 127, 3.0f / 127, 1}},
+        {5121, "false", u8, {0, 0, 255, 51, 3, 128}},
+        {5121, "true", u8, {0, 0, 1, 0.2f, 3.0f / 255, 128.0f / 255}},
+        {5122, "false", i16, {0, 0, -32767, 300, 3, 32767}},
+        {5122, "true", i16, {0, 0, -1, 300.0f / 32767, 3.0f / 32767, 1}},
+        {5123, "false", u16, {0, 0, 65535, 13107, 3, 300}},
+        {5123, "true", u16, {0, 0, 1, 0.2f, 3.0f / 65535, 300.0f / 65535}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        struct {
+            float positions[9];
+            unsigned char uvs[12];
+        } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0}};
+        char accessors[320];
+        memcpy(data.uvs, cases[i].bytes, sizeof data.uvs);
+        snprintf(accessors, sizeof accessors,
+                 "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                 "{'bufferView':1,'componentType':%d,'normalized':%s,'count':3,'type':'VEC2'}",
+                 cases[i].type, cases[i].normalized);
+        assert_gltf_status(
+            f,
+            gltf_import_primitive(f, "'attributes':{'POSITION':0,'TEXCOORD_7':1}", accessors,
+                                  "{'buffer':0,'byteLength':36},"
+                                  "{'buffer':0,'byteOffset':36,'byteLength':12,'byteStride':4}",
+                                  &data, sizeof data),
+            PPM_STATUS_OK);
+        assert_floats(first(f)->uvs[7], cases[i].expected, 6);
+        gltf_reset(f);
+    }
+}
+
+static void sets_that_are_not_used_are_told(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float data[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f,
+                              "'attributes':{'POSITION':0,'COLOR_1':0,'COLOR_0':0,"
+                              "'TEXCOORD_8':1,'TEXCOORD_11':1}",
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                              "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}",
+                              "{'buffer':0,'byteLength':36}", data, sizeof data),
+        PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "1 sets of vertex colours beyond COLOR_0");
+    assert_gltf_logged(f, 'W', "2 sets of texture coordinates beyond TEXCOORD_7");
+    assert_non_null(first(f)->colors);
+}
+
 static void tangents_without_normals_are_ignored(void **state)
 {
     gltf_fixture *f = *state;
@@ -404,6 +468,8 @@ int main(void)
         TEST(indices_of_every_component_type_are_read),
         TEST(interleaved_attributes_are_read),
         TEST(colors_of_three_components_are_opaque),
+        TEST(coordinates_of_every_component_type_are_read),
+        TEST(sets_that_are_not_used_are_told),
         TEST(tangents_without_normals_are_ignored),
         TEST(sparse_accessors_replace_elements),
         TEST(sparse_accessors_without_a_buffer_view_start_from_zeros),

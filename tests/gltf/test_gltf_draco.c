@@ -130,6 +130,72 @@ static void strips_come_as_lists(void **state)
     check_equal(f, &g);
 }
 
+/* A file of count meshes with one stream each; the nodes show the first shown of them. Stream
+ * number broken is changed. */
+static ppm_status import_many(gltf_fixture *f, size_t count, size_t shown, size_t broken)
+{
+    enum { ROOM = 1 << 16 };
+    static unsigned char bytes[ROOM];
+    static char meshes[ROOM], accessors[ROOM], views[ROOM], nodes[ROOM], roots[ROOM];
+    size_t length = 0, m = 0, a = 0, v = 0, n = 0, r = 0;
+    grid g;
+    make_grid(&g);
+    for (size_t i = 0; i < count; ++i) {
+        const char *comma = i > 0 ? "," : "";
+        g.positions[0][2] = -(float)i; /* tells the meshes apart */
+        const size_t size = encode(&g, DRACO_EDGEBREAKER, bytes + length, ROOM - length);
+        if (i == broken) memset(bytes + length + 20, 0xff, size / 2);
+        m += (size_t)snprintf(
+            meshes + m, ROOM - m,
+            "%s{'primitives':[{'attributes':{'POSITION':%zu},'indices':%zu,'extensions':{"
+            "'KHR_draco_mesh_compression':{'bufferView':%zu,'attributes':{'POSITION':0}}}}]}",
+            comma, 2 * i, 2 * i + 1, i);
+        a += (size_t)snprintf(accessors + a, ROOM - a,
+                              "%s{'componentType':5126,'count':%d,'type':'VEC3'},"
+                              "{'componentType':5125,'count':%d,'type':'SCALAR'}",
+                              comma, VERTICES, 3 * TRIANGLES);
+        v += (size_t)snprintf(views + v, ROOM - v,
+                              "%s{'buffer':0,'byteOffset':%zu,'byteLength':%zu}", comma, length,
+                              size);
+        if (i < shown) n += (size_t)snprintf(nodes + n, ROOM - n, "%s{'mesh':%zu}", comma, i);
+        if (i < shown) r += (size_t)snprintf(roots + r, ROOM - r, "%s%zu", comma, i);
+        length += size;
+    }
+    gltf_write(f, "sub/mesh.bin", bytes, length);
+    return gltf_importf(f,
+                        "{'asset':{'version':'2.0'},'scenes':[{'nodes':[%s]}],'nodes':[%s],"
+                        "'meshes':[%s],'accessors':[%s],'bufferViews':[%s],"
+                        "'buffers':[{'byteLength':%zu,'uri':'mesh.bin'}]}",
+                        roots, nodes, meshes, accessors, views, length);
+}
+
+static void many_streams_are_decoded_ahead_and_none_is_mixed_up(void **state)
+{
+    gltf_fixture *f = *state;
+    enum { COUNT = 20 }; /* more than are decoded at once */
+    assert_gltf_status(f, import_many(f, COUNT, COUNT, COUNT), PPM_STATUS_OK);
+    assert_int_equal(f->scene->mesh_count, COUNT);
+    for (uint32_t i = 0; i < COUNT; ++i) {
+        const ppmi_primitive *p = &f->scene->meshes[i].primitives[0];
+        float low = 1.0f;
+        assert_int_equal(p->triangle_count, TRIANGLES);
+        for (uint32_t v = 0; v < p->vertex_count; ++v) {
+            low = fminf(low, p->positions[3 * v + 2]);
+        }
+        assert_float_equal(low, -(float)i, 0.0f);
+    }
+}
+
+static void a_broken_stream_is_an_error_only_where_it_is_used(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f, import_many(f, 4, 2, 2), PPM_STATUS_OK);
+    assert_false(gltf_logged(f, 'E', "Draco"));
+    gltf_reset(f);
+    assert_gltf_status(f, import_many(f, 4, 4, 2), PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(f, 'E', "meshes[2].primitives[0]");
+}
+
 static void counts_and_ids_that_disagree_are_refused(void **state)
 {
     gltf_fixture *f = *state;
@@ -226,6 +292,26 @@ static void a_stream_that_is_cut_or_changed_ends_in_a_status(void **state)
                        PPM_STATUS_INPUT_INVALID);
 }
 
+static void memory_that_is_out_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    unsigned char stream[8192];
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    size_t n = 0;
+    grid g;
+    make_grid(&g);
+    const size_t length = encode(&g, DRACO_EDGEBREAKER, stream, sizeof stream);
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        gltf_reset(f);
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = import_stream(f, stream, length, VERTICES, 3 * (size_t)TRIANGLES, 4, 1);
+        ppmi_alloc_fail_at(f->context, 0);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 20);
+    check_equal(f, &g);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -234,6 +320,9 @@ int main(void)
         TEST(a_stream_that_claims_billions_is_refused_before_room_is_made),
         TEST(a_stream_that_is_cut_or_changed_ends_in_a_status),
         TEST(counts_and_ids_that_disagree_are_refused),
+        TEST(a_broken_stream_is_an_error_only_where_it_is_used),
+        TEST(many_streams_are_decoded_ahead_and_none_is_mixed_up),
+        TEST(memory_that_is_out_is_told),
         TEST(a_compressed_mesh_equals_the_plain_one),
         TEST(strips_come_as_lists),
     };

@@ -366,7 +366,7 @@ static void what_a_stream_cannot_be_is_refused_with_its_place(void **state)
             f,
             import_with(f, &data, "EXT_meshopt_compression", view_text(&data, cases[i].view), ""),
             PPM_STATUS_INPUT_INVALID);
-        assert_gltf_logged(f, 'E', "bufferViews[0]");
+        assert_gltf_logged(f, 'E', "bufferViews[0].extensions.EXT_meshopt_compression");
         assert_gltf_logged(f, 'E', cases[i].message);
         gltf_reset(f);
     }
@@ -393,6 +393,25 @@ static void a_broken_stream_falls_back_to_plain_data(void **state)
     check_geometry(f);
 }
 
+static void memory_that_is_out_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    size_t n = 0;
+    file data;
+    encode_file(&data);
+    while (status == PPM_STATUS_OUT_OF_MEMORY) {
+        gltf_reset(f);
+        ppmi_alloc_fail_at(f->context, ++n);
+        status = import_with(f, &data, "EXT_meshopt_compression",
+                             view_text(&data, "'byteStride':8,'count':6"), "");
+        ppmi_alloc_fail_at(f->context, 0);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+    assert_true(n > 20);
+    check_geometry(f);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -404,6 +423,7 @@ int main(void)
         TEST(colors_are_decoded_to_all_their_bits),
         TEST(colors_of_few_bits_fill_the_whole_range),
         TEST(what_a_stream_cannot_be_is_refused_with_its_place),
+        TEST(memory_that_is_out_is_told),
         TEST(compressed_views_equal_plain_ones),
         TEST(a_broken_stream_falls_back_to_plain_data),
     };
