@@ -56,14 +56,14 @@ static void place(const ppm_material_desc *desc, float radius, float x, float y,
 
 /* As for the box of plastic and metal (test_methods_agree.c): 1 % from edges; diffusely lit balls
  * have none. */
-static const method_comparison how = {.width = 60,
-                                      .path_passes = 32,
+static const method_comparison how = {.width = 42,
+                                      .path_passes = 40,
                                       .passes = 6,
-                                      .photons = 10000,
+                                      .photons = 6000,
                                       .radius_m = 0.02f,
                                       .bias = 0.01,
                                       .resolution = 0.05,
-                                      .seeds = 6};
+                                      .seeds = 5};
 
 /* Ceramic, velvet under varnish, a film on plastic, brushed metal, a retroreflector. */
 static void a_box_of_layered_things(void **state)
