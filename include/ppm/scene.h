@@ -165,7 +165,8 @@ typedef struct ppm_material_desc {
     float anisotropy_rotation_rad;  /* of the direction, from the tangent, counter-clockwise */
     ppm_texture anisotropy_texture; /* RG direction in -1..1, B strength */
 
-    float diffuse_transmission;                     /* KHR_materials_diffuse_transmission, 0..1 */
+    float diffuse_transmission; /* KHR_materials_diffuse_transmission, 0..1. Bounds a solid if
+                                   transmission_kind says so and the attenuation is not nothing */
     ppm_texture diffuse_transmission_texture;       /* A */
     float diffuse_transmission_color[3];            /* default 1 1 1 */
     ppm_texture diffuse_transmission_color_texture; /* RGB */

@@ -255,6 +255,7 @@ static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc 
 static float single_scattering_albedo(float multiscatter)
 {
     const float c = multiscatter;
+    if (!(c > 0.0f)) return 0.0f; /* the fit leaves 6e-6 */
     const float s = 4.09712f + 4.20863f * c - sqrtf(9.59217f + (41.6808f + 17.7126f * c) * c);
     return ppmi_clampf(1.0f - s * s, 0.0f, 1.0f);
 }

@@ -7,6 +7,9 @@
  * and is reciprocal. */
 #include "shading/bsdf.h"
 
+#include <stddef.h>
+#include <string.h>
+
 #include "shading/layers.h"
 #include "shading/microfacet.h"
 
@@ -22,24 +25,25 @@ static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
 }
 
 static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average,
-                      const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque)
+                      const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque,
+                      float metallic)
 {
     bsdf->coat_f0 = vec3_max_component(dielectric_f0);
     bsdf->coat_f90 = point->specular;
     const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
     const float left_average = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
-    const float coat = opaque * (1.0f - point->metallic) * left_o / ppmi_max(left_average, 1e-4f);
+    const float coat = opaque * (1.0f - metallic) * left_o / ppmi_max(left_average, 1e-4f);
     bsdf->coat_base = vec3_scale(point->base_color, coat);
 
     /* Kulla and Conty: F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) */
     const float e_average = average.a + average.b;
     const float lost_average = 1.0f - e_average;
-    if (point->metallic > 0.0f && lost_average > 1e-4f) {
+    if (metallic > 0.0f && lost_average > 1e-4f) {
         const ppmi_vec3 f = vec3_lerp(point->base_color, vec3_splat(1.0f), 1.0f / 21.0f);
         const ppmi_vec3 f_ms = vec3(f.x * f.x * e_average / (1.0f - f.x * lost_average),
                                     f.y * f.y * e_average / (1.0f - f.y * lost_average),
                                     f.z * f.z * e_average / (1.0f - f.z * lost_average));
-        const float metal = opaque * point->metallic * (1.0f - at_o.a - at_o.b) / lost_average;
+        const float metal = opaque * metallic * (1.0f - at_o.a - at_o.b) / lost_average;
         bsdf->metal_base = vec3_scale(f_ms, ppmi_max(metal, 0.0f));
     }
 }
@@ -124,7 +128,7 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
                     const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *out_bsdf)
 {
     ppmi_bsdf *bsdf = out_bsdf;
-    *bsdf = (ppmi_bsdf){0};
+    memset(bsdf, 0, offsetof(ppmi_bsdf, layers));
     const bool is_outside = vec3_dot(wo, surface->ng) >= 0.0f;
     bsdf->ng = is_outside ? surface->ng : vec3_neg(surface->ng);
     const ppmi_vec3 ns = is_outside ? point->ns : vec3_neg(point->ns);
@@ -150,14 +154,12 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
         make_layered(bsdf, albedo, point, wo, dielectric_f0, opaque);
         return;
     }
-    ppmi_material_point opaque_point = *point;
-    opaque_point.metallic = metal;
     ppmi_albedo_pair at_o = {0.0f, 0.0f}, average = {0.0f, 0.0f};
     if (!is_lambert(bsdf)) {
         at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
         average = ppmi_albedo_average(albedo, bsdf->roughness);
     }
-    make_wide(bsdf, at_o, average, &opaque_point, dielectric_f0, opaque);
+    make_wide(bsdf, at_o, average, point, dielectric_f0, opaque, metal);
     make_lobe_masks(bsdf, at_o, average);
 }
 

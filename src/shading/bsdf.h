@@ -83,19 +83,20 @@ typedef struct ppmi_bsdf {
 
     bool is_layered;
 
-    union {
-        struct { /* PHASE; frame.n is the direction of flight */
+    /* in the lobes' order; sums to 1, or all 0 for black */
+    float lobe_probability[PPMI_LOBE_COUNT];
+    uint8_t lobes;        /* mask of lobes that are there */
+    uint8_t delta_lobes;  /* those of them that are infinitely narrow */
+    uint8_t gather_lobes; /* those wide enough for density estimation */
+
+    union { /* set where it applies */
+        struct {
+            /* PHASE; frame.n is the direction of flight */
             ppmi_vec3 sigma_s;
             float asymmetry_g;
         };
         ppmi_bsdf_layers layers;
     };
-
-    float
-        lobe_probability[PPMI_LOBE_COUNT]; /* in the lobes' order; sums to 1, or all 0 for black */
-    uint8_t lobes;                         /* mask of lobes that are there */
-    uint8_t delta_lobes;                   /* those of them that are infinitely narrow */
-    uint8_t gather_lobes;                  /* those wide enough for density estimation */
 } ppmi_bsdf;
 
 typedef struct ppmi_bsdf_sample {

@@ -140,9 +140,9 @@ static int spec_nodes(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, fl
         nodes->cos_i[0] = nodes->cos_h[0] = cosine;
         return 1;
     }
-    /* two widths: one in between */
-    const float width = sqrtf(sqrtf(layers->alpha.x * layers->alpha.y));
-    ppmi_lobe_ggx_nodes(albedo->lobes, width, cosine, nodes);
+    /* two widths: their mean square spreads as far on average */
+    const float alpha2 = 0.5f * (ppmi_sqr(layers->alpha.x) + ppmi_sqr(layers->alpha.y));
+    ppmi_lobe_ggx_nodes(albedo->lobes, sqrtf(sqrtf(alpha2)), cosine, nodes);
     return PPMI_LOBE_NODES;
 }
 
@@ -409,6 +409,8 @@ static ppmi_vec3 sheen_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
     const float alpha = layers->sheen_roughness * layers->sheen_roughness;
     float f = ppmi_sheen_value(alpha, bsdf->wo, ppmi_sheen_lambda(bsdf->wo.z, alpha), wi,
                                ppmi_sheen_lambda(wi.z, alpha));
+    f *= ppmi_min(ppmi_lobe_sheen_bound(albedo->lobes, layers->sheen_roughness, bsdf->wo.z),
+                  ppmi_lobe_sheen_bound(albedo->lobes, layers->sheen_roughness, wi.z));
     if (layers->coat > 0.0f) {
         f *= 1.0f - ppmi_max(coat_albedo(layers, albedo, cos_to_coat(layers, bsdf->wo)),
                              coat_albedo(layers, albedo, cos_to_coat(layers, wi)));

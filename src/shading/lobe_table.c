@@ -1,6 +1,8 @@
 /* The tables of layered materials, over fixed point sets. */
 #include "shading/lobe_table.h"
 
+#include <stddef.h>
+
 #include "math/sampler.h"
 #include "shading/anisotropic.h"
 #include "shading/sheen.h"
@@ -81,6 +83,24 @@ static void init_ggx(ppmi_lobe_table *table, const ppmi_vec2 points[POINTS])
     }
 }
 
+/* Position in a table of count entries over 0..1. */
+static int cell(float x, int count, float *out_fraction)
+{
+    const float scaled = ppmi_clampf(x, 0.0f, 1.0f) * (float)(count - 1);
+    int i = (int)scaled;
+    if (i > count - 2) i = count - 2;
+    *out_fraction = scaled - (float)i;
+    return i;
+}
+
+/* A row of a table by the root of the cosine. */
+static float row_at(const float row[PPMI_LOBE_COSINES], float cosine)
+{
+    float t;
+    const int c = cell(sqrtf(ppmi_max(cosine, 0.0f)), PPMI_LOBE_COSINES, &t);
+    return row[c] + (row[c + 1] - row[c]) * t;
+}
+
 /* ---- sheen ----------------------------------------------------------------------------------- */
 
 static float sheen_roughness(int r)
@@ -89,40 +109,59 @@ static float sheen_roughness(int r)
     return PPMI_SHEEN_LEAST_ROUGHNESS + t * (1.0f - PPMI_SHEEN_LEAST_ROUGHNESS);
 }
 
-/* Midpoint rule over directions, finer towards the horizon. */
-static float integrate_sheen(float alpha, float cosine, float nodes[PPMI_LOBE_NODES])
+enum { RINGS = 48, SECTORS = 16 };
+
+/* Cosine in the middle of a ring: finer towards the horizon. */
+static float ring_cosine(int ring)
 {
-    enum { RINGS = 48, SECTORS = 16 };
+    return ppmi_sqr(((float)ring + 0.5f) / RINGS);
+}
+
+static float bound_of(float albedo)
+{
+    return albedo > 1.0f ? 1.0f / albedo : 1.0f;
+}
+
+/* Midpoint rule over directions. raw: the albedos before they are bounded; NULL: these are sought.
+ */
+static float integrate_sheen(float alpha, float cosine, const float *raw,
+                             float nodes[PPMI_LOBE_NODES])
+{
     const ppmi_vec3 wo = at_cosine(cosine);
     const float lambda_o = ppmi_sheen_lambda(cosine, alpha);
+    const float bound_o = raw ? bound_of(row_at(raw, cosine)) : 1.0f;
     weighted samples[RINGS * SECTORS];
     double albedo = 0.0;
     for (int i = 0; i < RINGS; i++) {
-        const float t = ((float)i + 0.5f) / RINGS, cos_i = t * t;
-        const float lambda_i = ppmi_sheen_lambda(cos_i, alpha);
+        const float cos_i = ring_cosine(i), lambda_i = ppmi_sheen_lambda(cos_i, alpha);
+        const float bound_i = raw ? bound_of(row_at(raw, cos_i)) : 1.0f;
         const float sin_i = sqrtf(1.0f - cos_i * cos_i);
+        /* both halves of the circle; d cos = 2 t dt */
+        const float measure = 2.0f * PPMI_PI / SECTORS * 2.0f * sqrtf(cos_i) / RINGS;
         for (int k = 0; k < SECTORS; k++) {
             const float phi = PPMI_PI * ((float)k + 0.5f) / SECTORS;
             const ppmi_vec3 wi = vec3(sin_i * cosf(phi), sin_i * sinf(phi), cos_i);
-            const float f = ppmi_sheen_value(alpha, wo, lambda_o, wi, lambda_i);
-            /* both halves of the circle; d cos = 2 t dt */
-            const float weight = f * cos_i * 2.0f * PPMI_PI / SECTORS * 2.0f * t / RINGS;
+            const float weight = ppmi_sheen_value(alpha, wo, lambda_o, wi, lambda_i) *
+                                 ppmi_min(bound_o, bound_i) * cos_i * measure;
             samples[i * SECTORS + k] = (weighted){cos_i, weight};
             albedo += (double)weight;
         }
     }
-    make_nodes(samples, RINGS * SECTORS, nodes);
+    if (raw) make_nodes(samples, RINGS * SECTORS, nodes);
     return (float)albedo;
 }
 
 static void init_sheen(ppmi_lobe_table *table)
 {
     for (int r = 0; r < PPMI_LOBE_ROUGHNESSES; r++) {
-        const float roughness = sheen_roughness(r);
-        for (int c = 0; c < PPMI_LOBE_COSINES; c++) {
-            const float root = ppmi_max((float)c / (PPMI_LOBE_COSINES - 1), 0.02f);
-            table->sheen_albedo[r][c] =
-                integrate_sheen(roughness * roughness, root * root, table->sheen[r][c]);
+        const float alpha = ppmi_sqr(sheen_roughness(r));
+        for (int pass = 0; pass < 2; pass++) {
+            for (int c = 0; c < PPMI_LOBE_COSINES; c++) {
+                const float root = ppmi_max((float)c / (PPMI_LOBE_COSINES - 1), 0.02f);
+                float *albedo = pass == 0 ? table->sheen_raw[r] : table->sheen_albedo[r];
+                albedo[c] = integrate_sheen(
+                    alpha, root * root, pass == 0 ? NULL : table->sheen_raw[r], table->sheen[r][c]);
+            }
         }
     }
 }
@@ -182,16 +221,6 @@ void ppmi_lobe_table_init(ppmi_lobe_table *table)
 
 /* ---- lookup ---------------------------------------------------------------------------------- */
 
-/* Position in a table of count entries over 0..1. */
-static int cell(float x, int count, float *out_fraction)
-{
-    const float scaled = ppmi_clampf(x, 0.0f, 1.0f) * (float)(count - 1);
-    int i = (int)scaled;
-    if (i > count - 2) i = count - 2;
-    *out_fraction = scaled - (float)i;
-    return i;
-}
-
 /* Where four entries of a table meet, and their shares. */
 typedef struct patch {
     int r, c;
@@ -242,12 +271,22 @@ void ppmi_lobe_sheen_nodes(const ppmi_lobe_table *table, float roughness, float 
         out_cos_i[n] = blend(&at, low[0][n], low[1][n], high[0][n], high[1][n]);
 }
 
-float ppmi_lobe_sheen_albedo(const ppmi_lobe_table *table, float roughness, float cosine)
+static float sheen_at(const float table[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES], float roughness,
+                      float cosine)
 {
     const patch at = patch_at(sheen_position(roughness), sqrtf(ppmi_max(cosine, 0.0f)));
-    const float *low = table->sheen_albedo[at.r] + at.c,
-                *high = table->sheen_albedo[at.r + 1] + at.c;
+    const float *low = table[at.r] + at.c, *high = table[at.r + 1] + at.c;
     return blend(&at, low[0], low[1], high[0], high[1]);
+}
+
+float ppmi_lobe_sheen_bound(const ppmi_lobe_table *table, float roughness, float cosine)
+{
+    return bound_of(sheen_at(table->sheen_raw, roughness, cosine));
+}
+
+float ppmi_lobe_sheen_albedo(const ppmi_lobe_table *table, float roughness, float cosine)
+{
+    return sheen_at(table->sheen_albedo, roughness, cosine);
 }
 
 ppmi_albedo_pair ppmi_lobe_wide_albedo(const ppmi_lobe_table *table, float roughness,

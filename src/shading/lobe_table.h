@@ -33,6 +33,7 @@ typedef struct ppmi_lobe_table {
      * root of the cosine */
     float sheen[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES][PPMI_LOBE_NODES]; /* cos_i */
     float sheen_albedo[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES];
+    float sheen_raw[PPMI_LOBE_ROUGHNESSES][PPMI_LOBE_COSINES]; /* before it is bounded */
     /* [roughness][strength of anisotropy][cosine][azimuth from the wide axis, 0 to 90 degrees] */
     ppmi_albedo_pair wide[PPMI_WIDE_ROUGHNESSES][PPMI_WIDE_STRENGTHS][PPMI_WIDE_COSINES]
                          [PPMI_WIDE_ANGLES];
@@ -45,7 +46,11 @@ void ppmi_lobe_ggx_nodes(const ppmi_lobe_table *table, float roughness, float co
                          ppmi_lobe_nodes *out_nodes);
 void ppmi_lobe_sheen_nodes(const ppmi_lobe_table *table, float roughness, float cosine,
                            float out_cos_i[PPMI_LOBE_NODES]);
-/* Directional albedo of a white sheen. */
+/* What keeps the sheen of one direction within what falls on it: times f, the lesser of both
+ * directions' bounds. 1 but for low roughness at the horizon, where the published form makes up to
+ * four times the energy. */
+float ppmi_lobe_sheen_bound(const ppmi_lobe_table *table, float roughness, float cosine);
+/* Directional albedo of a white sheen, bounded. */
 float ppmi_lobe_sheen_albedo(const ppmi_lobe_table *table, float roughness, float cosine);
 
 /* Albedo of GGX with the widths of KHR_materials_anisotropy, seen from wo (local). */

@@ -117,22 +117,21 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
     const ppmi_texel base = lookup(scene, surface, &desc->base_color_texture);
     const ppmi_texel rough = lookup(scene, surface, &desc->metallic_roughness_texture);
     const ppmi_texel specular_color = lookup(scene, surface, &desc->specular_color_texture);
-    *out_point = (ppmi_material_point){
-        .base_color = {unit(desc->base_color[0] * base.r * vertex[0]),
-                       unit(desc->base_color[1] * base.g * vertex[1]),
-                       unit(desc->base_color[2] * base.b * vertex[2])},
-        .metallic = unit(metallic(desc, rough)),
-        .roughness = unit(roughness(desc, rough)),
-        .ior = desc->ior,
-        .specular = unit(desc->specular * lookup(scene, surface, &desc->specular_texture).a),
-        .specular_color = {ppmi_max(desc->specular_color[0] * specular_color.r, 0.0f),
-                           ppmi_max(desc->specular_color[1] * specular_color.g, 0.0f),
-                           ppmi_max(desc->specular_color[2] * specular_color.b, 0.0f)},
-        .transmission =
-            unit(desc->transmission * lookup(scene, surface, &desc->transmission_texture).r),
-        .is_thin = desc->transmission_kind == PPM_TRANSMISSION_THIN,
-        .ns = mapped_normal(scene, surface, &desc->normal_texture, desc->normal_scale),
-        .is_layered = surface->material->is_layered,
-    };
+    out_point->base_color = vec3(unit(desc->base_color[0] * base.r * vertex[0]),
+                                 unit(desc->base_color[1] * base.g * vertex[1]),
+                                 unit(desc->base_color[2] * base.b * vertex[2]));
+    out_point->metallic = unit(metallic(desc, rough));
+    out_point->roughness = unit(roughness(desc, rough));
+    out_point->ior = desc->ior;
+    out_point->specular = unit(desc->specular * lookup(scene, surface, &desc->specular_texture).a);
+    out_point->specular_color = vec3(ppmi_max(desc->specular_color[0] * specular_color.r, 0.0f),
+                                     ppmi_max(desc->specular_color[1] * specular_color.g, 0.0f),
+                                     ppmi_max(desc->specular_color[2] * specular_color.b, 0.0f));
+    out_point->transmission =
+        unit(desc->transmission * lookup(scene, surface, &desc->transmission_texture).r);
+    out_point->is_thin = desc->transmission_kind == PPM_TRANSMISSION_THIN;
+    out_point->relative_index = 0.0f;
+    out_point->ns = mapped_normal(scene, surface, &desc->normal_texture, desc->normal_scale);
+    out_point->is_layered = surface->material->is_layered;
     if (out_point->is_layered) evaluate_layers(scene, surface, &out_point->layers);
 }

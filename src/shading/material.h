@@ -31,7 +31,7 @@ typedef struct ppmi_material_point {
                              nothing outside */
     ppmi_vec3 ns;         /* shading normal after the normal map, front side */
     bool is_layered;
-    ppmi_layer_point layers; /* if it is */
+    ppmi_layer_point layers; /* set if it is */
 } ppmi_material_point;
 
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,

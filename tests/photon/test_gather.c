@@ -15,6 +15,7 @@
 
 static ppm_context *context;
 static ppmi_albedo_table albedo;
+static ppmi_lobe_table lobes;
 static ppmi_visible_point point;
 
 static const ppmi_vec3 up = {0.0f, 0.0f, 1.0f};
@@ -23,6 +24,8 @@ static int start(void **state)
 {
     (void)state;
     ppmi_albedo_table_init(&albedo);
+    ppmi_lobe_table_init(&lobes);
+    albedo.lobes = &lobes;
     return ppm_context_create(NULL, &context) == PPM_STATUS_OK ? 0 : -1;
 }
 
@@ -68,6 +71,27 @@ static void assert_counts(const ppmi_photon *photon, bool counts)
     const ppmi_gathered gathered = gather(photon, 1, 1.0f);
     assert_near(gathered.count, counts ? 1.0 : 0.0, 0.0);
     assert_int_equal(gathered.flux.x > 0.0f, counts);
+}
+
+/* A photon that has come from below a sheet, its normal on that side. */
+static void light_from_behind_counts_where_it_passes_diffusely(void **state)
+{
+    (void)state;
+    ppmi_photon photon = photon_at(0.5f, 0.0f, 0.0f);
+    photon.wi = photon.ng = vec3_neg(up);
+    ppmi_material_point material = lambert(0.6f);
+    look_at(&material);
+    assert_counts(&photon, false);
+    material.is_layered = true;
+    material.layers =
+        (ppmi_layer_point){.coat_normal = up, .through = 0.25f, .through_color = vec3_splat(0.8f)};
+    look_at(&material);
+    assert_counts(&photon, true);
+    const ppmi_gathered gathered = gather(&photon, 1, 1.0f);
+    const double kernel = 2.0 * (1.0 - 0.25);
+    assert_near(gathered.flux.x, kernel * 0.25 * 0.8 / M_PI, 1e-4);
+    photon.ng = vec3_normalize(vec3(1.0f, 0.0f, -0.2f)); /* of something else */
+    assert_counts(&photon, false);
 }
 
 static void a_photon_brings_power_times_reflectance(void **state)
@@ -291,6 +315,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_photon_brings_power_times_reflectance),
+        cmocka_unit_test(light_from_behind_counts_where_it_passes_diffusely),
         cmocka_unit_test(the_radius_bounds_the_disk),
         cmocka_unit_test(photons_off_the_plane_do_not_count),
         cmocka_unit_test(photons_on_other_surfaces_do_not_count),

@@ -82,18 +82,40 @@ static void factors_out_of_range_are_refused(void **state)
     (void)state;
     ppm_material_desc_init(&desc);
     const float bad[] = {-0.1f, 1.1f, NAN, INFINITY};
-    float *const unit_factors[] = {
-        &desc.base_color[0], &desc.base_color[1], &desc.base_color[2],
-        &desc.base_color[3], &desc.metallic,      &desc.roughness,
-        &desc.specular,      &desc.transmission,  &desc.attenuation_color[0]};
+    float *const unit_factors[] = {&desc.base_color[0],
+                                   &desc.base_color[1],
+                                   &desc.base_color[2],
+                                   &desc.base_color[3],
+                                   &desc.metallic,
+                                   &desc.roughness,
+                                   &desc.specular,
+                                   &desc.transmission,
+                                   &desc.attenuation_color[0],
+                                   &desc.clearcoat,
+                                   &desc.clearcoat_roughness,
+                                   &desc.sheen_color[1],
+                                   &desc.sheen_roughness,
+                                   &desc.iridescence,
+                                   &desc.anisotropy,
+                                   &desc.diffuse_transmission,
+                                   &desc.diffuse_transmission_color[2],
+                                   &desc.multiscatter_color[0],
+                                   &desc.retroreflection};
     for (size_t f = 0; f < sizeof unit_factors / sizeof unit_factors[0]; f++) {
         for (size_t b = 0; b < 4; b++) {
             *unit_factors[f] = bad[b];
             assert_material_refused();
         }
     }
-    float *const factors[] = {&desc.emission[0], &desc.ior, &desc.specular_color[2],
-                              &desc.attenuation_distance_m, &desc.alpha_cutoff};
+    float *const factors[] = {&desc.emission[0],
+                              &desc.ior,
+                              &desc.specular_color[2],
+                              &desc.attenuation_distance_m,
+                              &desc.alpha_cutoff,
+                              &desc.iridescence_ior,
+                              &desc.iridescence_thickness_min_nm,
+                              &desc.iridescence_thickness_max_nm,
+                              &desc.scatter_anisotropy_g};
     for (size_t f = 0; f < sizeof factors / sizeof factors[0]; f++) {
         *factors[f] = -1.0f;
         assert_material_refused();
@@ -129,10 +151,24 @@ static void textures_must_exist(void **state)
 {
     (void)state;
     ppm_material_desc_init(&desc);
-    ppm_texture *const slots[] = {&desc.base_color_texture,  &desc.metallic_roughness_texture,
-                                  &desc.normal_texture,      &desc.emission_texture,
-                                  &desc.specular_texture,    &desc.specular_color_texture,
-                                  &desc.transmission_texture};
+    ppm_texture *const slots[] = {&desc.base_color_texture,
+                                  &desc.metallic_roughness_texture,
+                                  &desc.normal_texture,
+                                  &desc.emission_texture,
+                                  &desc.specular_texture,
+                                  &desc.specular_color_texture,
+                                  &desc.transmission_texture,
+                                  &desc.clearcoat_texture,
+                                  &desc.clearcoat_roughness_texture,
+                                  &desc.clearcoat_normal_texture,
+                                  &desc.sheen_color_texture,
+                                  &desc.sheen_roughness_texture,
+                                  &desc.iridescence_texture,
+                                  &desc.iridescence_thickness_texture,
+                                  &desc.anisotropy_texture,
+                                  &desc.diffuse_transmission_texture,
+                                  &desc.diffuse_transmission_color_texture,
+                                  &desc.retroreflection_texture};
     const float pixel[3] = {1.0f, 1.0f, 1.0f};
     const ppm_image_id image = image_rgb(test.scene, 1, 1, pixel);
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {
@@ -145,6 +181,55 @@ static void textures_must_exist(void **state)
     }
     desc.normal_texture = (ppm_texture){.image = image};
     material_add(test.scene, &desc);
+}
+
+/* What is inside of the material that was added last. */
+static const ppmi_material *add(void)
+{
+    material_add(test.scene, &desc);
+    return &test.scene->materials[test.scene->material_count - 1];
+}
+
+/* Extinction is -ln(colour) / distance, whatever part of it scatters. */
+static void a_medium_scatters_by_its_colour_after_all_scattering(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    desc.transmission = 1.0f;
+    desc.attenuation_distance_m = 0.5f;
+    const float colors[3] = {0.0f, 0.5f, 1.0f};
+    for (int i = 0; i < 3; i++) {
+        desc.attenuation_color[i] = 0.25f;
+        desc.multiscatter_color[i] = colors[i];
+    }
+    desc.scatter_anisotropy_g = 0.3f;
+    const ppmi_medium *inside = &add()->inside;
+    const double sigma_t = -log(0.25) / 0.5;
+    const double s = 4.09712 + 4.20863 * 0.5 - sqrt(9.59217 + 41.6808 * 0.5 + 17.7126 * 0.25);
+    assert_near(inside->sigma_s.x, 0.0, 0.0); /* nothing scatters that was not said to */
+    assert_near(inside->sigma_s.y, sigma_t * (1.0 - s * s), 1e-5);
+    assert_near(inside->sigma_s.z, sigma_t, 1e-4);
+    assert_near(inside->sigma_s.x + inside->sigma_a.x, sigma_t, 1e-5);
+    assert_near(inside->sigma_s.y + inside->sigma_a.y, sigma_t, 1e-5);
+    assert_near(inside->asymmetry_g, 0.3, 1e-6);
+}
+
+/* A leaf is no border of anything; wax is, and so is glass without anything in it. */
+static void diffuse_transmission_bounds_a_solid_that_has_something_inside(void **state)
+{
+    (void)state;
+    ppm_material_desc_init(&desc);
+    desc.diffuse_transmission = 0.5f;
+    assert_false(add()->is_solid_glass);
+    desc.attenuation_distance_m = 0.01f;
+    desc.attenuation_color[1] = 0.5f;
+    assert_true(add()->is_solid_glass);
+    desc.transmission_kind = PPM_TRANSMISSION_THIN;
+    assert_false(add()->is_solid_glass);
+    assert_near(add()->inside.sigma_a.y, 0.0, 0.0);
+    ppm_material_desc_init(&desc);
+    desc.transmission = 1.0f;
+    assert_true(add()->is_solid_glass);
 }
 
 static void defaults_are_those_of_the_header(void **state)
@@ -339,6 +424,8 @@ int main(void)
         WITH_SCENE(the_mean_of_an_image_is_linear_and_alpha_is_1_without),
         WITH_SCENE(choices_out_of_range_are_refused),
         WITH_SCENE(textures_must_exist),
+        WITH_SCENE(a_medium_scatters_by_its_colour_after_all_scattering),
+        WITH_SCENE(diffuse_transmission_bounds_a_solid_that_has_something_inside),
         WITH_SCENE(defaults_are_those_of_the_header),
         WITH_SCENE(environments_are_checked),
         WITH_SCENE(a_frozen_scene_takes_nothing),

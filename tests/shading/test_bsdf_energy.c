@@ -132,10 +132,11 @@ static void white_plastic_and_metal_return_all_light(void **state)
 static void white_layers_return_all_light(void **state)
 {
     (void)state;
-    static const int kinds[] = {
-        KIND_WHITE_COATED_PLASTIC, KIND_WHITE_COATED_METAL,       KIND_WHITE_ROUGH_COATED_METAL,
-        KIND_WHITE_SHEEN,          KIND_WHITE_COATED_SHEEN_METAL, KIND_WHITE_BRUSHED_METAL,
-        KIND_WHITE_LEAF,           KIND_WHITE_RETRO_METAL,        KIND_WHITE_EVERYTHING};
+    static const int kinds[] = {KIND_WHITE_COATED_PLASTIC,     KIND_WHITE_COATED_METAL,
+                                KIND_WHITE_ROUGH_COATED_METAL, KIND_WHITE_SHEEN,
+                                KIND_WHITE_SMOOTH_SHEEN,       KIND_WHITE_COATED_SHEEN_METAL,
+                                KIND_WHITE_BRUSHED_METAL,      KIND_WHITE_LEAF,
+                                KIND_WHITE_RETRO_METAL,        KIND_WHITE_EVERYTHING};
     energy_test test = {.seed = 3000};
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         check_kind_is_white(&test, kinds[k]);

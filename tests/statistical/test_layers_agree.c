@@ -1,0 +1,169 @@
+/* All integrators agree on materials with layers, and a white world stays white. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "statistical/methods.h"
+#include "support/scenes.h"
+
+static test_scene test;
+
+static int open_scene(void **state)
+{
+    (void)state;
+    scene_open(&test);
+    return 0;
+}
+
+static int close_scene(void **state)
+{
+    (void)state;
+    scene_close(&test);
+    return 0;
+}
+
+static ppm_material_desc coloured(float r, float g, float b, float metallic, float roughness)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    vec3_store(desc.base_color, vec3(r, g, b));
+    desc.metallic = metallic;
+    desc.roughness = roughness;
+    return desc;
+}
+
+/* A closed box with coloured walls and a lamp under its ceiling. */
+static void add_lit_box(void)
+{
+    ppm_scene *scene = test.scene;
+    const ppm_material_id grey = material_lambert_rgb(scene, vec3(0.6f, 0.5f, 0.4f));
+    shape_place(scene, shape_box(scene, grey, vec3_splat(-1), vec3_splat(1), 1, true));
+    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
+             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
+    camera_perspective(scene, vec3(0, 0, 0.95f), vec3(0, -0.1f, -1), 1.2f);
+}
+
+static void place(const ppm_material_desc *desc, float radius, float x, float y, float z)
+{
+    ppm_scene *scene = test.scene;
+    shape_place_at(scene, shape_sphere(scene, material_add(scene, desc), radius, 24, true),
+                   vec3(x, y, z));
+}
+
+/* As for the box of plastic and metal (test_methods_agree.c): 1 % from edges; diffusely lit balls
+ * have none. */
+static const method_comparison how = {.width = 42,
+                                      .path_passes = 40,
+                                      .passes = 6,
+                                      .photons = 6000,
+                                      .radius_m = 0.02f,
+                                      .bias = 0.01,
+                                      .resolution = 0.05,
+                                      .seeds = 5};
+
+/* Ceramic, velvet under varnish, a film on plastic, brushed metal, a retroreflector. */
+static void a_box_of_layered_things(void **state)
+{
+    (void)state;
+    add_lit_box();
+    ppm_material_desc ceramic = coloured(0.7f, 0.2f, 0.1f, 0.0f, 0.5f);
+    ceramic.clearcoat = 1.0f;
+    place(&ceramic, 0.3f, -0.5f, -0.7f, -0.2f);
+    ppm_material_desc velvet = coloured(0.2f, 0.1f, 0.4f, 0.0f, 0.8f);
+    for (int i = 0; i < 3; i++)
+        velvet.sheen_color[i] = 0.8f;
+    velvet.sheen_roughness = 0.5f;
+    velvet.clearcoat = 0.5f;
+    velvet.clearcoat_roughness = 0.6f;
+    place(&velvet, 0.3f, 0.4f, -0.7f, -0.3f);
+    ppm_material_desc film = coloured(0.1f, 0.1f, 0.1f, 0.0f, 0.5f);
+    film.iridescence = 1.0f;
+    film.iridescence_ior = 1.8f;
+    place(&film, 0.25f, -0.5f, 0.2f, -0.4f);
+    ppm_material_desc reflector = coloured(0.9f, 0.8f, 0.7f, 1.0f, 0.6f);
+    reflector.retroreflection = 0.7f;
+    place(&reflector, 0.25f, 0.5f, 0.2f, -0.4f);
+    ppm_material_desc brushed = coloured(0.8f, 0.8f, 0.9f, 1.0f, 0.6f);
+    brushed.anisotropy = 0.8f;
+    add_quad(test.scene, material_add(test.scene, &brushed), vec3(-0.9f, -0.95f, -0.95f),
+             vec3(1.8f, 0, 0), vec3(0, 1.8f, 0.1f));
+    methods_agree(test.scene, &how);
+}
+
+/* A sheet that hangs between the lamp and the camera: what is seen of it has come through. */
+static void a_leaf_before_the_lamp(void **state)
+{
+    (void)state;
+    add_lit_box();
+    ppm_material_desc leaf = coloured(0.3f, 0.6f, 0.2f, 0.0f, 0.6f);
+    leaf.diffuse_transmission = 0.6f;
+    leaf.diffuse_transmission_color[0] = 0.5f;
+    add_quad(test.scene, material_add(test.scene, &leaf), vec3(-0.7f, -0.5f, -0.6f),
+             vec3(1.4f, 0, 0), vec3(0, 1.2f, 0.7f));
+    methods_agree(test.scene, &how);
+}
+
+/* Light goes in diffusely, is scattered inside, and comes out diffusely. */
+static void a_ball_of_wax(void **state)
+{
+    (void)state;
+    add_lit_box();
+    ppm_material_desc wax = coloured(0.8f, 0.7f, 0.6f, 0.0f, 0.5f);
+    wax.diffuse_transmission = 0.8f;
+    wax.attenuation_distance_m = 0.3f;
+    for (int i = 0; i < 3; i++) {
+        wax.attenuation_color[i] = 0.5f;
+        wax.multiscatter_color[i] = 0.3f + 0.2f * (float)i;
+    }
+    wax.scatter_anisotropy_g = 0.3f;
+    place(&wax, 0.5f, 0.0f, -0.3f, -0.3f);
+    methods_agree(test.scene, &how);
+}
+
+/* Whatever is white returns what falls on it: a ball can not be seen before a white sky. A ball of
+ * triangles with smooth normals loses a little at its rim, where normals are bent towards the eye.
+ */
+static void white_layered_balls_vanish_before_a_white_sky(void **state)
+{
+    (void)state;
+    ppm_material_desc kinds[4];
+    for (int i = 0; i < 4; i++)
+        kinds[i] = coloured(1, 1, 1, 0, 0.5f);
+    kinds[0].clearcoat = 1.0f;
+    kinds[1].sheen_color[0] = kinds[1].sheen_color[1] = kinds[1].sheen_color[2] = 1.0f;
+    kinds[1].sheen_roughness = 0.6f;
+    kinds[2].diffuse_transmission = 0.5f;
+    kinds[3].diffuse_transmission = 1.0f; /* wax that takes nothing away */
+    kinds[3].attenuation_distance_m = 0.2f;
+    for (int c = 0; c < 3; c++) {
+        kinds[3].attenuation_color[c] = 0.3f;
+        kinds[3].multiscatter_color[c] = 1.0f;
+    }
+    for (int i = 0; i < 4; i++)
+        place(&kinds[i], 0.45f, (float)(i % 2) - 0.5f, (float)(i / 2) - 0.5f, 0.0f);
+    light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
+    camera_orthographic(test.scene, vec3(0, 0, 4), vec3(0, 0, 0), 1.0f);
+    ppm_render_options options = method_options(&path_method, 16, 1000);
+    options.max_depth = 2000;
+    const test_mean mean = render_green(test.scene, &options, 24, 8);
+    test_family family = {0};
+    mean_check_power(&mean, 0.003);
+    family_add_mean(&family, &mean, 1.0, 0.005, "white balls");
+    family_check(&family);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_box_of_layered_things, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(a_leaf_before_the_lamp, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(a_ball_of_wax, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(white_layered_balls_vanish_before_a_white_sky, open_scene,
+                                        close_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
