@@ -480,7 +480,7 @@ ppm_status ppmi_gltf_deform_read(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
         status = read_influences(&s, deform->joint_count, p);
     }
     const bool has_sides = g->kind == PPM_PRIMITIVE_TRIANGLES && p->influence_count > 0;
-    for (size_t i = 0; has_sides && i < g->element_count; ++i) {
+    for (size_t i = 0; has_sides && i < g->triangle_count; ++i) {
         if (i == 0 && !is_mirrored(reader->pose, deform)) break;
         const uint32_t second = g->indices[3 * i + 1];
         g->indices[3 * i + 1] = g->indices[3 * i + 2];

@@ -128,7 +128,6 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
     if (status == PPM_STATUS_OK) status = parse(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
-    if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_scene(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
     if (status == PPM_STATUS_OK) status = allocate_tables(r);
@@ -189,7 +188,8 @@ ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
 {
     ppmi_gltf_reader *r = &asset->reader;
     r->scene = scene;
-    ppm_status status = ppmi_gltf_load_images(r);
+    ppm_status status = ppmi_gltf_choose_scene(r);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_load_images(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_environment(r);
     if (status == PPM_STATUS_OK) report(r);

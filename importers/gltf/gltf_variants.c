@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/suggest.h"
-#include "gltf/gltf_reader.h"
+#include "gltf/gltf_choice.h"
 
 /* ": 'a', 'b' and 3 more" */
 static void list_names(const ppmi_gltf_document *document, char *text, size_t size)
@@ -25,28 +24,19 @@ static void list_names(const ppmi_gltf_document *document, char *text, size_t si
     }
 }
 
-static ppm_status refuse(const ppmi_gltf_reader *reader, const char *wanted)
-{
-    const ppmi_gltf_document *document = reader->document;
-    const char *nearest = ppmi_suggest(wanted, document->variants, document->variant_count);
-    char names[400];
-    list_names(document, names, sizeof names);
-    return ppmi_fail(reader->context, PPM_STATUS_INVALID_ARGUMENT,
-                     "%s: there is no variant '%s'; the file has %zu%s%s%s%s", reader->path, wanted,
-                     document->variant_count, names, nearest ? "; did you mean '" : "",
-                     nearest ? nearest : "", nearest ? "'?" : "");
-}
-
 ppm_status ppmi_gltf_choose_variant(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
     const char *wanted = reader->options->variant;
     char names[400], note[512];
     reader->variant = 0;
-    for (size_t i = 0; wanted && i < document->variant_count && reader->variant == 0; ++i) {
-        if (strcmp(document->variants[i], wanted) == 0) reader->variant = (uint32_t)i + 1;
+    if (wanted) {
+        int32_t index = 0;
+        const ppm_status status = ppmi_gltf_choose(reader, "variant", wanted, document->variants,
+                                                   document->variant_count, false, &index);
+        if (status != PPM_STATUS_OK) return status;
+        reader->variant = (uint32_t)index + 1;
     }
-    if (wanted && reader->variant == 0) return refuse(reader, wanted);
     if (document->variant_count == 0) return PPM_STATUS_OK;
     if (wanted) {
         snprintf(note, sizeof note, "'%.64s' is shown", wanted);

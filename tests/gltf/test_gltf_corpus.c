@@ -243,6 +243,7 @@ static const refusal refused[] = {
     {"base/glb/two_bin_chunks.glb", "chunk 0"},
     {"base/glb/zero_chunk_header.glb", "chunk 0"},
     {"base/json/invalid_syntax.gltf", "line 1, column 2"},
+    {"base/mesh_data/joints_no_weights.gltf", "bufferViews[0]: 32 bytes"},
     {"base/node/matrix_indecomposable.gltf", "nodes[0].matrix"},
     {"base/node/node_loop_scene.gltf", "nodes[0].children[0]"},
     {"base/root/named_objects.gltf", "buffers[0]: it has no bytes"},
