@@ -51,7 +51,8 @@ PPM_API ppm_status ppm_asset_get_item(const ppm_asset *asset, int32_t kind, uint
 PPM_API const char *ppm_asset_generator(const ppm_asset *asset);
 /* asset.copyright, or "". */
 PPM_API const char *ppm_asset_copyright(const ppm_asset *asset);
-/* The metadata of the asset as a whole (KHR_xmp_json_ld), JSON text as it stands in the file; "". */
+/* The metadata of the asset as a whole (KHR_xmp_json_ld), JSON text as it stands in the file; "".
+ */
 PPM_API const char *ppm_asset_xmp(const ppm_asset *asset);
 /* How the numbers of punctual lights are read, in a phrase; "" when there are none. */
 PPM_API const char *ppm_asset_light_units(const ppm_asset *asset);

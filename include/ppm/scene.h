@@ -180,10 +180,10 @@ typedef struct ppm_material_desc {
                                             from, 0..1; default 0 */
     ppm_texture retroreflection_texture; /* R */
 
-    uint32_t roughness_is_glossiness; /* non-zero: roughness is a glossiness, and A of
-                                         metallic_roughness_texture multiplies it. The perceptual
-                                         roughness is 1 less the product, and nothing multiplies
-                                         metallic (KHR_materials_pbrSpecularGlossiness) */
+    uint32_t roughness_is_glossiness;     /* non-zero: roughness is a glossiness, and A of
+                                             metallic_roughness_texture multiplies it. The perceptual
+                                             roughness is 1 less the product, and nothing multiplies
+                                             metallic (KHR_materials_pbrSpecularGlossiness) */
     uint32_t emission_takes_vertex_color; /* non-zero: vertex colours multiply the emission, as they
                                              do base_color (KHR_materials_unlit) */
 } ppm_material_desc;
@@ -275,9 +275,9 @@ PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
 /* Whether the instance is there at all: for rays, light and bounds; it is when added. */
 PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
                                                   uint32_t is_visible);
-/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those of
- * its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be what
- * it was, all else is not used. */
+/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those
+ * of its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be
+ * what it was, all else is not used. */
 PPM_API ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
                                                const ppm_primitive_desc *desc);
 PPM_API ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,

@@ -232,8 +232,7 @@ static void set_attribute(ImageSpec &spec, const ppmi_image_attribute &attribute
                        attribute.floats);
         break;
     case PPMI_ATTRIBUTE_RATIONAL:
-        spec.attribute(attribute.name,
-                       TypeDesc(TypeDesc::INT, TypeDesc::VEC2, TypeDesc::RATIONAL),
+        spec.attribute(attribute.name, TypeDesc(TypeDesc::INT, TypeDesc::VEC2, TypeDesc::RATIONAL),
                        attribute.rational);
         break;
     }

@@ -76,9 +76,8 @@ static void an_unknown_variant_is_an_error_with_a_suggestion(void **state)
     gltf_fixture *f = *state;
     f->options.variant = "midnigth";
     assert_gltf_status(f, gltf_import(f, FILE_WITH(NAMES, MAPPINGS)), PPM_STATUS_INVALID_ARGUMENT);
-    assert_gltf_logged(
-        f, 'E',
-        "no variant 'midnigth'; did you mean 'Midnight'?; there are 3: 'Midnight', "
+    assert_gltf_logged(f, 'E',
+                       "no variant 'midnigth'; did you mean 'Midnight'?; there are 3: 'Midnight', "
                        "'Sunrise', 'Noon'");
 }
 
