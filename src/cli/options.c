@@ -76,7 +76,8 @@ static const option_row rows[] = {
     {"motion-steps", 0, OPTION_INTEGER, FIELD(motion_steps), .least = 2,
      .most = PPM_MAX_MOTION_STEPS, .argument = "N",
      .help = "with --shutter: times at which what moves is looked at; between\n"
-             "them it moves on straight lines (default: 2)"},
+             "them it moves on straight lines (default: as many as\n"
+             "show its way, up to 33)"},
 
     {"passes", 'n', OPTION_COUNT, FIELD(passes), .least = 1, .most = 1000000000, .argument = "N",
      .group = "When to stop", .help = "after N passes (default: 256; with --time no limit)"},
