@@ -10,7 +10,8 @@
  *   ids start at 1; 0 is "none".
  * All arrays and strings that a desc points to are copied; the caller keeps its own.
  * Threads: one thread builds a scene at a time. While a render session of a scene is alive, the
- * scene is frozen: adding to it returns WRONG_STATE, reading is free from any thread. */
+ * scene is frozen: adding to it and changing it return WRONG_STATE, reading is free from any
+ * thread. */
 #ifndef PPM_SCENE_H
 #define PPM_SCENE_H
 
@@ -180,10 +181,10 @@ typedef struct ppm_material_desc {
                                             from, 0..1; default 0 */
     ppm_texture retroreflection_texture; /* R */
 
-    uint32_t roughness_is_glossiness; /* non-zero: roughness is a glossiness, and A of
-                                         metallic_roughness_texture multiplies it. The perceptual
-                                         roughness is 1 less the product, and nothing multiplies
-                                         metallic (KHR_materials_pbrSpecularGlossiness) */
+    uint32_t roughness_is_glossiness;     /* non-zero: roughness is a glossiness, and A of
+                                             metallic_roughness_texture multiplies it. The perceptual
+                                             roughness is 1 less the product, and nothing multiplies
+                                             metallic (KHR_materials_pbrSpecularGlossiness) */
     uint32_t emission_takes_vertex_color; /* non-zero: vertex colours multiply the emission, as they
                                              do base_color (KHR_materials_unlit) */
 } ppm_material_desc;
@@ -275,9 +276,9 @@ PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
 /* Whether the instance is there at all: for rays, light and bounds; it is when added. */
 PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
                                                   uint32_t is_visible);
-/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those of
- * its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be what
- * it was, all else is not used. */
+/* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those
+ * of its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be
+ * what it was, all else is not used. */
 PPM_API ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_t primitive,
                                                const ppm_primitive_desc *desc);
 PPM_API ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,
@@ -380,9 +381,8 @@ typedef struct ppm_light_desc {
     float angular_radius_rad; /* directional: the light comes from a disk in the sky of this radius
                                  and of even radiance, which can be seen; < pi/2. Less than 1e-4 is
                                  taken as 0: parallel light */
-    float
-        radius_m;       /* point, spot: of a ball that sends the same intensity in each direction,
-                           evenly     from all over its outline; less than 1e-6 is taken as 0: a point */
+    float radius_m;     /* point, spot: of a ball that sends the same intensity in each direction,
+                           evenly from all over its outline; below 1e-6 it is a point */
     float width_m;      /* rectangle, disk: along the local X, > 0 */
     float height_m;     /* rectangle, disk: along the local Y, > 0 */
     uint32_t is_hidden; /* non-zero: the camera does not see the light straight ahead, only mirrors

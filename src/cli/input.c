@@ -99,6 +99,7 @@ static ppm_import_options plain_options(const cli_options *options)
     return (ppm_import_options){.size = sizeof(ppm_import_options),
                                 .light_units = options->light_units,
                                 .transmission = options->transmission,
+                                .line_radius_m = (float)options->line_radius_m,
                                 .allow_outside = options->allows_outside != 0,
                                 .strict = options->is_strict != 0};
 }

@@ -164,6 +164,9 @@ static const option_row rows[] = {
              "G from -1 to 1 scatters backwards or forwards (default: 0)"},
     {"light-units", 0, OPTION_CHOICE, FIELD(light_units), .choices = light_units, .argument = "HOW",
      .help = "how lamps are read: auto, gltf, blender, raw (default: auto)"},
+    {"line-radius", 0, OPTION_REAL, FIELD(line_radius_m), .low = 1e-9, .high = 1e9, .argument = "R",
+     .help = "of the file's points and lines, in metres of their mesh\n"
+             "(default: 0.2 % of the diagonal of its box)"},
     {"transmission", 0, OPTION_CHOICE, FIELD(transmission), .choices = transmissions,
      .argument = "HOW", .help = "glass without a thickness: auto, solid, thin (default: auto)"},
 
