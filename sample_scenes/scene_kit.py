@@ -172,6 +172,18 @@ def add_spot(name, location, target, watts, angle_degrees, blend, color=(1.0, 1.
     return spot
 
 
+def turn_about_z(thing, frames):
+    """One even turn from frame 0 to frame number frames."""
+    for frame, angle in ((0, 0.0), (frames, 2.0 * math.pi)):
+        thing.rotation_euler.z = angle
+        thing.keyframe_insert("rotation_euler", index=2, frame=frame)
+    for point in thing.animation_data.action.fcurves[0].keyframe_points:
+        point.interpolation = "LINEAR"
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 0, frames
+    scene.frame_set(0)
+
+
 def add_camera(location, target, fov_degrees):
     """The camera, named "Camera"; fov is the angle of the picture's longer side."""
     data = bpy.data.cameras.new("Camera")
@@ -252,18 +264,20 @@ def use_texture(material, image):
 # ---- export --------------------------------------------------------------------------------
 
 
-def export_glb(path):
-    """Writes the scene, then corrects what Blender 3.4 cannot say."""
+def export_glb(path, edit=None):
+    """Writes the scene, then corrects what Blender 3.4 cannot say; edit(gltf) has the last word."""
     bpy.ops.export_scene.gltf(
         filepath=path,
         export_format="GLB",
         export_cameras=True,
         export_lights=True,
-        export_animations=False,
+        export_animations=bool(bpy.data.actions),
         export_apply=True,
         export_texcoords=any(mesh.uv_layers for mesh in bpy.data.meshes),
     )
     edit_glb(path, correct_materials)
+    if edit:
+        edit_glb(path, edit)
 
 
 def correct_materials(gltf):
@@ -374,9 +388,9 @@ def use_diffuse_node(material):
 # ---- the script's end ----------------------------------------------------------------------
 
 
-def finish(script):
+def finish(script, edit=None):
     """Exports SCRIPT.glb beside the script; after `-- --reference OUT.exr SAMPLES` renders too."""
-    export_glb(os.path.splitext(os.path.abspath(script))[0] + ".glb")
+    export_glb(os.path.splitext(os.path.abspath(script))[0] + ".glb", edit)
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     if not arguments:
         return

@@ -55,3 +55,6 @@ render methods_path sample_scenes/caustic_box.glb -s 256x256 -t 12 -i path
 # What else the camera and the sky do.
 render lens sample_scenes/glass_table.glb -s 480x360 -t 15 --aperture 0.5 --focus Marble
 render sun sample_scenes/pool.glb -s 480x320 -t 15 --sun 40,150 --exposure -13
+
+# A moment of an animation, with motion blur, and the layers of glTF's materials.
+render turntable sample_scenes/turntable.glb -s 720x480 -n 96 --frame 5 --shutter -0.15,0.15

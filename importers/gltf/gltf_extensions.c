@@ -6,24 +6,51 @@
 
 enum { MAX_LISTED = 64 }; /* of the used ones */
 
+#define NO_EFFECT "no effect on the picture"
+
 /* One row per extension, by name: what becomes of it, and how it is approximated or what is
- * missing. Of those that are ignored only those that people meet and can do something about. */
+ * missing. Of those that are ignored only those that people meet and can do something about.
+ * docs/gltf.md has the same rows. */
 static const struct {
     const char *name;
     int32_t verdict;
     const char *note;
 } rows[] = {
+    {"AGI_articulations", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"AGI_stk_metadata", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"CESIUM_RTC", PPM_FEATURE_HONOURED, "the whole scene is moved as one; " NO_EFFECT},
+    {"CESIUM_primitive_outline", PPM_FEATURE_IGNORED, "no outlines are drawn"},
+    {"EXT_instance_features", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"EXT_lights_area", PPM_FEATURE_HONOURED, "the proposal"},
     {"EXT_lights_ies", PPM_FEATURE_HONOURED, ""},
     {"EXT_lights_image_based", PPM_FEATURE_HONOURED, ""},
     {"EXT_materials_retroreflection", PPM_FEATURE_HONOURED,
      "as KHR_materials_retroreflection, which it became"},
+    {"EXT_mesh_features", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"EXT_mesh_gpu_instancing", PPM_FEATURE_HONOURED, ""},
+    {"EXT_mesh_manifold", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"EXT_mesh_opacity_micromap", PPM_FEATURE_HONOURED,
+     "a help to find what alpha cuts out; " NO_EFFECT},
+    {"EXT_mesh_primitive_edge_visibility", PPM_FEATURE_IGNORED, "no edges are drawn"},
     {"EXT_meshopt_compression", PPM_FEATURE_HONOURED, ""},
+    {"EXT_structural_metadata", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"EXT_texture_avif", PPM_FEATURE_HONOURED, ""},
     {"EXT_texture_webp", PPM_FEATURE_HONOURED, ""},
+    {"FB_geometry_metadata", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"FB_ngon_encoding", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"GODOT_single_root", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"GRIFFEL_bim_data", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_animation_pointer", PPM_FEATURE_HONOURED, ""},
+    {"KHR_audio_emitter", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"KHR_audio_graph", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"KHR_collision_shapes", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_draco_mesh_compression", PPM_FEATURE_HONOURED, ""},
+    {"KHR_environment_map", PPM_FEATURE_IGNORED,
+     "its cube maps are KTX2 files; give a picture by --env"},
+    {"KHR_gaussian_splatting", PPM_FEATURE_APPROXIMATED, "splats are shown as points"},
+    {"KHR_implicit_shapes", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"KHR_interactivity", PPM_FEATURE_APPROXIMATED,
+     "nobody interacts: the file is shown as it begins"},
     {"KHR_lights_punctual", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_anisotropy", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_clearcoat", PPM_FEATURE_HONOURED, ""},
@@ -35,6 +62,8 @@ static const struct {
     {"KHR_materials_pbrSpecularGlossiness", PPM_FEATURE_HONOURED,
      "as a dielectric whose reflectance along the normal is the specular colour"},
     {"KHR_materials_retroreflection", PPM_FEATURE_HONOURED, "the draft of 2026"},
+    {"KHR_materials_scatter", PPM_FEATURE_IGNORED,
+     "a proposal; KHR_materials_diffuse_transmission and _volume_scatter are read"},
     {"KHR_materials_sheen", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_specular", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_transmission", PPM_FEATURE_HONOURED, ""},
@@ -46,12 +75,23 @@ static const struct {
     {"KHR_materials_volume_scatter", PPM_FEATURE_HONOURED, "the draft of 2025"},
     {"KHR_mesh_quantization", PPM_FEATURE_HONOURED, ""},
     {"KHR_meshopt_compression", PPM_FEATURE_HONOURED, ""},
+    {"KHR_node_hoverability", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"KHR_node_selectability", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_node_visibility", PPM_FEATURE_HONOURED, ""},
+    {"KHR_physics_rigid_bodies", PPM_FEATURE_APPROXIMATED,
+     "nothing is simulated: bodies are where the file places them"},
     {"KHR_texture_basisu", PPM_FEATURE_IGNORED,
      "the textures are KTX2 files; write them as PNG, JPEG or WebP"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
-    {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet; no effect on the picture"},
+    {"KHR_xmp", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet, into the EXR's metadata"},
+    {"MSFT_lod", PPM_FEATURE_HONOURED, "the finest level is shown"},
+    {"MSFT_packing_normalRoughnessMetallic", PPM_FEATURE_APPROXIMATED,
+     "the plain textures beside it are used"},
+    {"MSFT_packing_occlusionRoughnessMetallic", PPM_FEATURE_APPROXIMATED,
+     "the plain textures beside it are used"},
     {"MSFT_texture_dds", PPM_FEATURE_HONOURED, ""},
+    {"NV_materials_mdl", PPM_FEATURE_IGNORED, "the glTF material beside it is shown"},
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 

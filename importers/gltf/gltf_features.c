@@ -34,8 +34,9 @@ static const struct {
     [ANIMATIONS] = {"animations", PPM_FEATURE_HONOURED, "animations", ""},
     [LIGHT_RANGES] = {"light ranges", PPM_FEATURE_IGNORED, "lights",
                       ": light falls off with the square of the distance without end"},
-    [LINES] = {"lines", PPM_FEATURE_APPROXIMATED, "primitives",
-               ": round segments, as thick as 0.4 % of their mesh's diagonal"},
+    [LINES] =
+        {"lines", PPM_FEATURE_APPROXIMATED, "primitives",
+         ": round segments, as thick as 0.4 % of their mesh's diagonal unless a radius is given"},
     [MORE_COLORS] = {"COLOR_1 and further", PPM_FEATURE_IGNORED, "primitives",
                      ": the specification gives them no meaning"},
     [MORE_UV_SETS] = {"TEXCOORD_8 and further", PPM_FEATURE_IGNORED, "primitives",
@@ -44,7 +45,7 @@ static const struct {
     [OCCLUSION] = {"occlusion textures", PPM_FEATURE_APPROXIMATED, "materials",
                    ": not used; the light that surfaces keep from each other is computed"},
     [POINTS] = {"points", PPM_FEATURE_APPROXIMATED, "primitives",
-                ": balls, as wide as 0.4 % of their mesh's diagonal"},
+                ": balls, as wide as 0.4 % of their mesh's diagonal unless a radius is given"},
     [SKINS] = {"skins", PPM_FEATURE_HONOURED, "skins", ""},
     [VERTEX_COLORS] = {"vertex colours", PPM_FEATURE_HONOURED, "primitives", ""},
 };
@@ -101,7 +102,8 @@ void ppmi_gltf_note_core_features(ppmi_gltf_reader *reader)
     counts[SKINS] = reader->outline.lists[PPMI_GLTF_SKINS].count;
     for (size_t i = 0; i < FEATURE_COUNT; ++i) {
         if (counts[i] == 0) continue;
-        snprintf(note, sizeof note, "%zu %s%s", counts[i], rows[i].counted, rows[i].note);
+        const int length = (int)strlen(rows[i].counted) - (counts[i] == 1); /* "1 skin" */
+        snprintf(note, sizeof note, "%zu %.*s%s", counts[i], length, rows[i].counted, rows[i].note);
         ppmi_gltf_note_feature(reader, rows[i].name, rows[i].verdict, note);
     }
 }

@@ -162,6 +162,10 @@ ppm_status ppmi_gltf_asset_open(ppm_context *context, const char *path,
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "import: light_units or transmission is none of the constants");
     }
+    if (!(options->line_radius_m >= 0.0f && options->line_radius_m <= 1e9f)) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "import: line_radius_m is not within 0 .. 1e9");
+    }
     ppmi_gltf_asset *asset = ppmi_alloc_zeroed(context, 1, sizeof *asset);
     if (!asset) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
     asset->reader.context = context;

@@ -204,6 +204,24 @@ static void add_light(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int32_t 
     ppmi_catalog_add(catalog, PPM_ASSET_LIGHTS, light->name[0] ? light->name : node->name, phrase);
 }
 
+/* EXT_lights_area, and the extras for files that cannot have it: sizes without the node's scale. */
+static void add_area_lights(const ppmi_gltf_reader *r, ppmi_catalog *catalog, int32_t index)
+{
+    const ppmi_gltf_node *node = &r->document->nodes[index];
+    char phrase[PHRASE] = "";
+    if (is_usable(r, PPMI_GLTF_AREA_LIGHTS, node->area_light)) {
+        const ppmi_gltf_area_light *light = &r->document->area_lights[node->area_light];
+        append(phrase, "area, %s, %.4g nit", light->is_disk ? "disk" : "rect", light->intensity);
+        ppmi_catalog_add(catalog, PPM_ASSET_LIGHTS, light->name[0] ? light->name : node->name,
+                         phrase);
+    }
+    if (!node->area.is_given) return;
+    phrase[0] = 0;
+    append(phrase, "area, %s, %.4g x %.4g m", node->area.shape, node->area.size[0],
+           node->area.size[1]);
+    ppmi_catalog_add(catalog, PPM_ASSET_LIGHTS, node->name, phrase);
+}
+
 /* Nodes in the order of the import: parents first, children in their order. The number of steps is
  * bounded, for cyclic files, which the import refuses. */
 typedef struct walk {
@@ -226,6 +244,7 @@ static void walk_from(walk *w, int32_t root)
         --w->steps_left;
         add_camera(w->reader, w->catalog, index);
         add_light(w->reader, w->catalog, index);
+        add_area_lights(w->reader, w->catalog, index);
         for (uint32_t i = node->child_count; i > 0; --i) {
             const int32_t child = node->children[i - 1];
             const bool is_own = child >= 0 && (size_t)child < d->node_count &&

@@ -211,7 +211,9 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
 {
     char name[PPMI_GLTF_PLACE];
     uint32_t count = 0;
-    const float radius_m = ppmi_gltf_line_radius(all, mesh->primitive_count);
+    const float wanted_m = reader->options->line_radius_m;
+    const float radius_m =
+        wanted_m > 0.0f ? wanted_m : ppmi_gltf_line_radius(all, mesh->primitive_count);
     *out_id = 0;
     for (uint32_t i = 0; i < mesh->primitive_count; ++i) {
         if (all[i].index_count == 0) continue;

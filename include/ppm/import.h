@@ -48,6 +48,8 @@ typedef struct ppm_import_options {
     uint32_t strict;        /* non-zero: a feature that is ignored makes the file an error,
                                INPUT_UNSUPPORTED, after all such features have been reported */
     ppm_pose pose;          /* when; all 0: the static pose of the file */
+    float line_radius_m;    /* of the points and lines of a glTF file, in the space of their mesh;
+                               0: 0.2 % of the diagonal of its box */
 } ppm_import_options;
 
 /* Reads path (.gltf, .glb, .obj; the ending decides, letter case does not matter) into scene, which

@@ -23,6 +23,8 @@ typedef struct ppm_output_options {
     uint32_t has_frame;  /* non-zero: the EXR's header says which frame it is */
     int32_t frame;
     double frames_per_second; /* with has_frame, above 0 */
+    const char *copyright;    /* for the metadata of every format; may be NULL or "" */
+    const char *xmp;          /* for the EXR's metadata: about the scene, as JSON (ppm_asset_xmp) */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and
@@ -34,12 +36,15 @@ PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
  *                      crop: its pixels are the data window, the whole picture the display window.
  *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
  *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
- *                      ppm:camera, ppm:command; of a frame ppm:frame, ppm:time (seconds),
- * framesPerSecond .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color.
- * The crop alone. color may be NULL for .exr. options may be NULL. Threads: not while another
- * thread is in ppm_render_advance. Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view),
- * OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY, WRONG_STATE (no finished pass). On failure the file at path
- * is as it was. */
+ *                      ppm:camera, ppm:command; where given, the copyright as OpenEXR's "owner"
+ *                      and the scene's metadata as ppm:xmp; of a frame ppm:frame, ppm:time
+ *                      (seconds), framesPerSecond
+ *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
+ *                      Header: Software, Copyright
+ * color may be NULL for .exr. options may be NULL.
+ * Threads: not while another thread is in ppm_render_advance.
+ * Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY,
+ * WRONG_STATE (no finished pass). On failure the file at path is as it was. */
 PPM_API ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color,
                                     const char *path, const ppm_output_options *options);
 

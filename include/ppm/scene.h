@@ -10,7 +10,8 @@
  *   ids start at 1; 0 is "none".
  * All arrays and strings that a desc points to are copied; the caller keeps its own.
  * Threads: one thread builds a scene at a time. While a render session of a scene is alive, the
- * scene is frozen: adding to it returns WRONG_STATE, reading is free from any thread. */
+ * scene is frozen: adding to it and changing it return WRONG_STATE, reading is free from any
+ * thread. */
 #ifndef PPM_SCENE_H
 #define PPM_SCENE_H
 
@@ -380,9 +381,8 @@ typedef struct ppm_light_desc {
     float angular_radius_rad; /* directional: the light comes from a disk in the sky of this radius
                                  and of even radiance, which can be seen; < pi/2. Less than 1e-4 is
                                  taken as 0: parallel light */
-    float
-        radius_m;       /* point, spot: of a ball that sends the same intensity in each direction,
-                           evenly     from all over its outline; less than 1e-6 is taken as 0: a point */
+    float radius_m;     /* point, spot: of a ball that sends the same intensity in each direction,
+                           evenly from all over its outline; below 1e-6 it is a point */
     float width_m;      /* rectangle, disk: along the local X, > 0 */
     float height_m;     /* rectangle, disk: along the local Y, > 0 */
     uint32_t is_hidden; /* non-zero: the camera does not see the light straight ahead, only mirrors

@@ -57,6 +57,7 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     ppmi_output_header header;
     ppmi_output_header_init(&header, rendered, &stats, ppmi_render_integrator_name(render), camera,
                             options->command);
+    ppmi_output_header_add_origin(&header, options->copyright, options->xmp);
     if (options->has_frame) {
         ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
     }
@@ -111,6 +112,7 @@ static ppm_status write_display(ppm_context *context, const ppm_color *color, co
     }
     ppmi_output_header header;
     ppmi_output_header_init_display(&header);
+    ppmi_output_header_add_origin(&header, options->copyright, NULL);
     file->attributes = header.attributes;
     file->attribute_count = header.count;
     return ppmi_imageio_write_file(context, path, file);

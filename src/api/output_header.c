@@ -124,6 +124,15 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
     add_text(header, "ppm:command", command);
 }
 
+/* OpenImageIO writes "Copyright" as what each format has for it: "owner" in OpenEXR, the tag in
+ * Exif and TIFF, the keyword in PNG. */
+void ppmi_output_header_add_origin(ppmi_output_header *header, const char *copyright,
+                                   const char *xmp)
+{
+    add_text(header, "Copyright", copyright);
+    add_text(header, "ppm:xmp", xmp);
+}
+
 /* The fraction nearest to value: whole rates, and those of NTSC, are exact. */
 static void to_rational(double value, int32_t out[2])
 {

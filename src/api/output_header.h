@@ -27,7 +27,11 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
 void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,
                                   double frames_per_second);
 
-/* The one line that files of other kinds carry. */
+/* Adds whose the scene is, and what its file says about it. Either may be NULL or "". */
+void ppmi_output_header_add_origin(ppmi_output_header *header, const char *copyright,
+                                   const char *xmp);
+
+/* What files of other kinds carry as well. */
 void ppmi_output_header_init_display(ppmi_output_header *header);
 
 #endif

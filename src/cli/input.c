@@ -10,7 +10,6 @@
 #include "choose.h"
 #include "clock.h"
 #include "setup.h"
-#include "values.h"
 
 void input_deinit(cli_input *input)
 {
@@ -50,7 +49,7 @@ static int choose_item(cli_console *console, const ppm_asset *asset, int32_t kin
     return choose(console, &list, text, out_index);
 }
 
-/* Whether the names are in the file. The library says so too, but of scenes only on import. */
+/* Whether the names are in the file. */
 static int check_names(cli_console *console, const ppm_asset *asset, const cli_options *options)
 {
     const struct {
@@ -100,14 +99,16 @@ static ppm_import_options plain_options(const cli_options *options)
     return (ppm_import_options){.size = sizeof(ppm_import_options),
                                 .light_units = options->light_units,
                                 .transmission = options->transmission,
+                                .line_radius_m = (float)options->line_radius_m,
                                 .allow_outside = options->allows_outside != 0,
                                 .strict = options->is_strict != 0};
 }
 
-/* What the library calls the scene that a number from 1 stands for: the file is opened for its
- * names alone. Warnings are for the opening that counts. */
-static int name_numbered_scene(cli_console *console, ppm_context *context,
-                               const cli_options *options, char *buffer, size_t size)
+/* Looks up the names that are asked for, and finds what the library calls the scene: the file is
+ * opened for them alone, so that a wrong one is told as the option that it came by. Warnings are
+ * for the opening that counts. */
+static int look_up_names(cli_console *console, ppm_context *context, const cli_options *options,
+                         char *scene, size_t size)
 {
     ppm_asset *asset = NULL;
     uint32_t index = 0;
@@ -117,9 +118,11 @@ static int name_numbered_scene(cli_console *console, ppm_context *context,
     const ppm_status status = ppm_asset_open(context, options->input, &plain, &asset);
     console->verbosity = verbosity;
     if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_INPUT);
-    const int result =
-        choose_item(console, asset, PPM_ASSET_SCENES, "--scene", options->scene, &index);
-    if (result == EXIT_DONE) write_scene(asset, index, buffer, size);
+    int result = check_names(console, asset, options);
+    if (result == EXIT_DONE && options->scene) {
+        result = choose_item(console, asset, PPM_ASSET_SCENES, "--scene", options->scene, &index);
+        if (result == EXIT_DONE) write_scene(asset, index, scene, size);
+    }
     ppm_asset_close(asset);
     return result;
 }
@@ -128,22 +131,19 @@ int input_open(cli_input *input, cli_console *console, ppm_context *context,
                const cli_options *options, const cli_picture *picture)
 {
     char scene[512];
-    uint64_t number = 0;
     const double begin = clock_seconds();
     ppm_import_options wanted = plain_options(options);
     wanted.pose = input->pose = pose_of(options, picture);
-    wanted.scene = options->scene;
     wanted.variant = options->variant;
     wanted.animation = options->animation;
-    if (options->scene && value_parse_integer(options->scene, &number)) {
-        const int result = name_numbered_scene(console, context, options, scene, sizeof scene);
+    if (options->scene || options->variant || options->animation) {
+        const int result = look_up_names(console, context, options, scene, sizeof scene);
         if (result != EXIT_DONE) return result;
-        wanted.scene = scene;
+        wanted.scene = options->scene ? scene : NULL;
     }
     const ppm_status status = ppm_asset_open(context, options->input, &wanted, &input->asset);
     input->seconds = clock_seconds() - begin;
-    if (status != PPM_STATUS_OK) return exit_status_of(status, EXIT_USAGE); /* a wrong name */
-    return check_names(console, input->asset, options);
+    return exit_status_of(status, EXIT_INPUT);
 }
 
 /* ---- moments --------------------------------------------------------------------------------- */

@@ -76,7 +76,8 @@ static const option_row rows[] = {
     {"motion-steps", 0, OPTION_INTEGER, FIELD(motion_steps), .least = 2,
      .most = PPM_MAX_MOTION_STEPS, .argument = "N",
      .help = "with --shutter: times at which what moves is looked at; between\n"
-             "them it moves on straight lines (default: 2)"},
+             "them it moves on straight lines (default: as many as\n"
+             "show its way, up to 33)"},
 
     {"passes", 'n', OPTION_COUNT, FIELD(passes), .least = 1, .most = 1000000000, .argument = "N",
      .group = "When to stop", .help = "after N passes (default: 256; with --time no limit)"},
@@ -163,6 +164,9 @@ static const option_row rows[] = {
              "G from -1 to 1 scatters backwards or forwards (default: 0)"},
     {"light-units", 0, OPTION_CHOICE, FIELD(light_units), .choices = light_units, .argument = "HOW",
      .help = "how lamps are read: auto, gltf, blender, raw (default: auto)"},
+    {"line-radius", 0, OPTION_REAL, FIELD(line_radius_m), .low = 1e-9, .high = 1e9, .argument = "R",
+     .help = "of the file's points and lines, in metres of their mesh\n"
+             "(default: 0.2 % of the diagonal of its box)"},
     {"transmission", 0, OPTION_CHOICE, FIELD(transmission), .choices = transmissions,
      .argument = "HOW", .help = "glass without a thickness: auto, solid, thin (default: auto)"},
 

@@ -111,6 +111,7 @@ typedef struct cli_options {
     fog_values fog;
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
+    double line_radius_m; /* 0: by their mesh */
 
     double exposure_ev;
     const char *display;

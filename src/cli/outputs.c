@@ -163,6 +163,12 @@ int outputs_select(cli_outputs *outputs, const cli_picture *picture)
     return EXIT_DONE;
 }
 
+void outputs_set_origin(cli_outputs *outputs, const ppm_asset *asset)
+{
+    outputs->options.copyright = ppm_asset_copyright(asset);
+    outputs->options.xmp = ppm_asset_xmp(asset);
+}
+
 bool outputs_exist(const cli_outputs *outputs)
 {
     for (size_t i = 0; i < outputs->count; i++) {

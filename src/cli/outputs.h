@@ -38,6 +38,9 @@ int outputs_check_names(const cli_outputs *outputs, cli_console *console);
 /* Turns to a picture: fills in the names. Returns EXIT_DONE or EXIT_RESOURCES. */
 int outputs_select(cli_outputs *outputs, const cli_picture *picture);
 
+/* Takes over for the metadata what the file says about itself. asset must outlive the writing. */
+void outputs_set_origin(cli_outputs *outputs, const ppm_asset *asset);
+
 /* Whether all files of the present picture are there. */
 bool outputs_exist(const cli_outputs *outputs);
 

@@ -100,6 +100,7 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
         result = input_set_moment(s->input, s->console, s->color, s->context, s->options, picture);
     }
     if (result != EXIT_DONE) return result;
+    outputs_set_origin(s->outputs, s->input->asset);
     if (state->left > 0) state->left--;
     const picture_task task = {
         .console = s->console,

@@ -10,9 +10,9 @@ typedef struct ppmi_medium_span {
     float begin, end;
 } ppmi_medium_span;
 
-/* The part of the ray, up to t_max (may be infinite), that lies in the medium of interior: the fog
- * outside of all solids. A solid without an end is open, and taken as empty. Further media
- * (heterogeneous ones, several around the scene) come in here. */
+/* The part of the ray, up to t_max (may be infinite), that lies in the medium of interior: that of
+ * the solid, or the fog outside of all solids. A solid without an end is open, and taken as empty.
+ * Further media (heterogeneous ones, several around the scene) come in here. */
 ppmi_medium_span ppmi_media_span(const ppmi_world *world, const ppmi_interior *interior,
                                  const ppmi_ray *ray, float t_max);
 

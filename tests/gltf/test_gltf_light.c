@@ -103,7 +103,7 @@ static void a_range_is_said_not_to_be_used_once(void **state)
     assert_gltf_status(
         f, import(f, "x", NODE("") "," NODE(""), PUNCTUAL("{'type':'point','range':2}")),
         PPM_STATUS_OK);
-    assert_gltf_logged(f, 'W', "ignored: light ranges: 1 lights");
+    assert_gltf_logged(f, 'W', "ignored: light ranges: 1 light: light falls off");
 }
 
 /* ---- EXT_lights_area ------------------------------------------------------------------------- */

@@ -75,10 +75,32 @@ static void every_mode_makes_a_mesh_and_is_told(void **state)
         assert_int_equal(f->scene->instance_count, 1);
         assert_int_equal(f->scene->meshes[0].primitive_count, 1);
         assert_gltf_logged(f, 'I',
-                           mode == 0 ? "approximated: points: 1 primitives: balls"
-                                     : "approximated: lines: 1 primitives: round segments");
+                           mode == 0 ? "approximated: points: 1 primitive: balls"
+                                     : "approximated: lines: 1 primitive: round segments");
         gltf_reset(f);
     }
+}
+
+/* Two points, a metre apart, with a radius that was asked for. */
+static void a_radius_that_is_asked_for_is_taken(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float two[6] = {0, 0, 0, 1, 0, 0};
+    const float wrong[] = {-1.0f, NAN, INFINITY};
+    for (size_t i = 0; i < 4; ++i) {
+        f->options.line_radius_m = i < 3 ? wrong[i] : 0.25f;
+        assert_gltf_status(
+            f,
+            gltf_import_primitive(f, "'attributes':{'POSITION':0},'mode':0",
+                                  "{'bufferView':0,'componentType':5126,'count':2,'type':'VEC3'}",
+                                  "{'buffer':0,'byteLength':24}", two, 24),
+            i < 3 ? PPM_STATUS_INVALID_ARGUMENT : PPM_STATUS_OK);
+        if (i < 3) gltf_reset(f);
+    }
+    float low[3], high[3];
+    assert_int_equal(ppm_scene_instance_bounds(f->scene, 1, low, high), PPM_STATUS_OK);
+    assert_float_equal(low[0], -0.25f, 1e-5f);
+    assert_float_equal(high[0], 1.25f, 1e-5f);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
@@ -89,6 +111,7 @@ int main(void)
         TEST(too_few_indices_are_nothing),           TEST(points_are_their_indices),
         TEST(lines_are_pairs_and_a_rest_is_dropped), TEST(strips_join_and_loops_close),
         TEST(the_radius_is_a_share_of_the_diagonal), TEST(every_mode_makes_a_mesh_and_is_told),
+        TEST(a_radius_that_is_asked_for_is_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

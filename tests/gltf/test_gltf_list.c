@@ -132,6 +132,20 @@ static void lights_are_listed_in_the_units_that_they_are_read_in(void **state)
     }
 }
 
+static void area_lights_are_listed_too(void **state)
+{
+    gltf_fixture *f = *state;
+    ppm_asset *asset = open_text(
+        f, "{'asset':{'version':'2.0'},'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':["
+           "{'name':'A','extensions':{'EXT_lights_area':{'light':0}}},"
+           "{'name':'B','extras':{'ppm_area':{'shape':'rect','size':[2,0.5],'radiance':1}}}],"
+           "'extensionsUsed':['EXT_lights_area'],'extensions':{'EXT_lights_area':{'lights':["
+           "{'name':'L','type':'area','shape':'disk','intensity':3,'size':1}]}}}");
+    assert_item(asset, PPM_ASSET_LIGHTS, 0, "L", "area, disk, 3 nit");
+    assert_item(asset, PPM_ASSET_LIGHTS, 1, "B", "area, rect, 2 x 0.5 m");
+    ppm_asset_close(asset);
+}
+
 /* The import refuses such files; the list must come to an end before that. */
 static void hierarchies_that_are_none_are_listed_all_the_same(void **state)
 {
@@ -192,6 +206,7 @@ int main(void)
         TEST(every_kind_is_described),
         TEST(cameras_are_in_the_order_of_the_import),
         TEST(lights_are_listed_in_the_units_that_they_are_read_in),
+        TEST(area_lights_are_listed_too),
         TEST(hierarchies_that_are_none_are_listed_all_the_same),
         TEST(what_is_broken_keeps_its_place),
         TEST(every_allocation_of_an_opening_may_fail),

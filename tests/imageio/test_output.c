@@ -92,7 +92,7 @@ static ppmi_pixels read_picture(const char *name)
     return pixels;
 }
 
-static void assert_file_contains(const char *name, const char *text)
+static bool file_contains(const char *name, const char *text)
 {
     void *bytes = NULL;
     size_t byte_count = 0;
@@ -103,7 +103,17 @@ static void assert_file_contains(const char *name, const char *text)
         is_found = memcmp((const char *)bytes + i, text, strlen(text)) == 0;
     }
     ppmi_free(context, bytes);
-    if (!is_found) fail_msg("%s does not contain \"%s\"", name, text);
+    return is_found;
+}
+
+static void assert_file_contains(const char *name, const char *text)
+{
+    if (!file_contains(name, text)) fail_msg("%s does not contain \"%s\"", name, text);
+}
+
+static void assert_file_lacks(const char *name, const char *text)
+{
+    if (file_contains(name, text)) fail_msg("%s contains \"%s\"", name, text);
 }
 
 static void without_a_pass_there_is_no_file(void **state)
@@ -175,6 +185,26 @@ static void exr_header_tells_how_it_was_made(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         assert_file_contains("a.exr", texts[i]);
     }
+}
+
+static void all_formats_tell_whose_the_scene_is(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"of.exr", "of.png", "of.jpg", "of.tif"};
+    const ppm_output_options options = {
+        .size = sizeof options, .copyright = "(c) 2026 A Potter", .xmp = "{\"dc:title\":\"Cup\"}"};
+    const ppm_output_options nothing = {.size = sizeof nothing, .copyright = "", .xmp = ""};
+    advance();
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        assert_int_equal(write_picture(names[i], &options), PPM_STATUS_OK);
+        assert_file_contains(names[i], "(c) 2026 A Potter");
+    }
+    assert_file_contains("of.exr", "owner"); /* OpenEXR's standard name */
+    assert_file_contains("of.exr", "ppm:xmp");
+    assert_file_contains("of.exr", "{\"dc:title\":\"Cup\"}");
+    assert_int_equal(write_picture("of.exr", &nothing), PPM_STATUS_OK);
+    assert_file_lacks("of.exr", "owner");
+    assert_file_lacks("of.exr", "ppm:xmp");
 }
 
 /* What a session of its own with these options says in its header. */
@@ -339,6 +369,7 @@ int main(void)
         TEST(exr_holds_the_picture_as_it_is),
         TEST(exr_of_half_depth_is_near),
         TEST(exr_header_tells_how_it_was_made),
+        TEST(all_formats_tell_whose_the_scene_is),
         TEST(exr_header_tells_about_the_camera),
         TEST(a_crop_is_the_data_window_of_its_exr_and_all_of_its_png),
         TEST(display_files_go_through_the_view),
