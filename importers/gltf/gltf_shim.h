@@ -111,6 +111,7 @@ typedef struct ppmi_gltf_lamp_extras {
     double radius_m;  /* ppm_radius */
     double angle_rad; /* ppm_angle */
     int32_t visible;  /* ppm_visible */
+    double blend;     /* ppm_blend */
 } ppmi_gltf_lamp_extras;
 
 /* extras.ppm_area of a node */
