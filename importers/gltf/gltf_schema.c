@@ -187,12 +187,15 @@ static const gltf_field orthographic[] = {
     FIELD("ymag", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("zfar", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("znear", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
-static const gltf_field camera[] = {STRING("name"),
-                                    FIELD("type", GLTF_STRING,
-                                          .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
-                                          .choices = " perspective orthographic "),
-                                    VITAL_OBJECT("perspective", perspective, 0),
-                                    VITAL_OBJECT("orthographic", orthographic, 0), END};
+static const gltf_field camera_extras[] = {NUMBERS("ppm_shift", 2, 0), END};
+static const gltf_field camera[] = {
+    STRING("name"),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = camera_extras),
+    FIELD("type", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
+          .choices = " perspective orthographic "),
+    VITAL_OBJECT("perspective", perspective, 0),
+    VITAL_OBJECT("orthographic", orthographic, 0),
+    END};
 
 static const gltf_field spot[] = {NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END};
 static const gltf_field light[] = {

@@ -612,9 +612,15 @@ void copy_animations(Document *document)
 
 ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
 {
-    return {from.name.c_str(),      from.type == "orthographic",
-            from.perspective.yfov,  from.perspective.aspectRatio,
-            from.orthographic.xmag, from.orthographic.ymag};
+    ppmi_gltf_camera out = {from.name.c_str(),
+                            from.type == "orthographic",
+                            from.perspective.yfov,
+                            from.perspective.aspectRatio,
+                            from.orthographic.xmag,
+                            from.orthographic.ymag,
+                            {0.0, 0.0}};
+    numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
+    return out;
 }
 
 ppmi_gltf_light copy_light(const tinygltf::Light &from)
