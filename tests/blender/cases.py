@@ -441,19 +441,19 @@ def round_point_light():
 
 
 def hard_spot():
-    """Spot, blend 0"""
+    """Spot, blend 0 (extras)"""
     lit_by("SPOT", 600.0, (-2.0, -2.0, 4.0), (0.0, 0.0, 0.5), shadow_soft_size=0.0,
            spot_size=math.radians(45.0), spot_blend=0.0)
 
 
 def soft_spot():
-    """Spot, blend 0.6"""
+    """Spot, blend 0.6 (extras)"""
     lit_by("SPOT", 600.0, (-2.0, -2.0, 4.0), (0.0, 0.0, 0.5), shadow_soft_size=0.0,
            spot_size=math.radians(60.0), spot_blend=0.6)
 
 
 def round_spot():
-    """Spot with a radius, blend 0 (extras)"""
+    """Spot with a radius (extras)"""
     lit_by("SPOT", 600.0, (-2.0, -2.0, 4.0), (0.0, 0.0, 0.5), shadow_soft_size=0.3,
            spot_size=math.radians(60.0), spot_blend=0.0)
 
@@ -506,8 +506,18 @@ def vertical_fit():
 
 
 def shifted_view():
-    """Camera: shift"""
+    """Camera: shift (extras)"""
     seen_by(shift_x=0.15, shift_y=-0.1)
+
+
+def shifted_tall():
+    """Camera: shift, sensor fit Vertical (extras)"""
+    seen_by(shift_x=-0.2, shift_y=0.1, sensor_fit="VERTICAL", sensor_height=24.0, lens=30.0)
+
+
+def shifted_orthographic():
+    """Camera: orthographic, shift (extras)"""
+    seen_by(type="ORTHO", ortho_scale=4.5, shift_x=0.2, shift_y=0.1)
 
 
 def orthographic():
@@ -657,7 +667,6 @@ class Case:
 LAYERS = ("Cycles adds the reflection to the diffuse part, which is Disney's; here a Lambertian "
           "part gets what the reflection leaves")
 COAT = "Cycles 3.4 has a quarter of the coat, and a wider lobe (GTR1)"
-SPOT = "Cycles multiplies by the cosine of the angle from the axis"
 NORMALS = "normals are blended between shapes; Blender computes them from the shape that results"
 
 CASES = [
@@ -701,9 +710,9 @@ CASES = [
     Case(vertex_colours),
     Case(point_light),
     Case(round_point_light),
-    Case(hard_spot, 0.11, SPOT),
-    Case(soft_spot, 1.2, "another falloff: [spots of Blender](lights.md#spots-of-blender)"),
-    Case(round_spot, 0.2, SPOT),
+    Case(hard_spot, samples=256),
+    Case(soft_spot),
+    Case(round_spot),
     Case(sun),
     Case(wide_sun, is_quick=True),
     Case(square_area),
@@ -711,7 +720,7 @@ CASES = [
     Case(round_area, is_quick=True),
     Case(horizontal_fit),
     Case(vertical_fit),
-    Case(shifted_view, 2.5, "glTF has no shift: the picture is that of the camera without"),
+    Case(shifted_view), Case(shifted_tall), Case(shifted_orthographic),
     Case(orthographic),
     Case(upright_picture),
     Case(nested_nodes, is_quick=True),

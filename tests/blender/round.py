@@ -37,16 +37,17 @@ PARTS = 4  # pictures of a scene by each renderer
 # ---- the two pictures ------------------------------------------------------------------------
 
 
-def prepare_lamps():
-    """Runs the snippet of docs/light-units.md, which says in extras what glTF does not."""
-    with open(os.path.join(ROOT, "docs", "light-units.md"), encoding="utf-8") as file:
-        snippet = re.search(r"```python\n(.*?)```", file.read(), re.DOTALL).group(1)
-    exec(compile(snippet, "docs/light-units.md", "exec"), {})
+def prepare():
+    """Runs the snippets of the documents: they note in extras what glTF has no words for."""
+    for name in ("light-units.md", "blender.md"):
+        with open(os.path.join(ROOT, "docs", name), encoding="utf-8") as file:
+            snippet = re.search(r"```python\n(.*?)```", file.read(), re.DOTALL).group(1)
+        exec(compile(snippet, name, "exec"), {})
 
 
 def export(path, case):
     """As an artist does, with custom properties; then the kit's corrections for Lambert."""
-    prepare_lamps()
+    prepare()
     bpy.ops.export_scene.gltf(
         filepath=path, export_format="GLB", export_cameras=True, export_lights=True,
         export_extras=True, export_animations=case.frame is not None, export_tangents=False,
