@@ -18,6 +18,20 @@ static const char *camera_fault(const ppmi_gltf_camera *camera)
     return camera->aspect < 0.0 ? "aspectRatio must be above 0" : NULL;
 }
 
+/* Blender's shift, which glTF has no word for; one out of range is left out, not the camera. */
+static void apply_shift(ppmi_gltf_reader *reader, const char *place, const ppmi_gltf_camera *camera,
+                        ppm_camera_desc *desc)
+{
+    const double x = camera->shift[0], y = camera->shift[1];
+    if (fabs(x) <= 100.0 && fabs(y) <= 100.0) {
+        desc->shift[0] = (float)x;
+        desc->shift[1] = (float)y;
+        return;
+    }
+    ppmi_gltf_warn(reader, place, "extras.ppm_shift [%g, %g] left out: it must be in -100 .. 100",
+                   x, y);
+}
+
 ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
@@ -35,6 +49,7 @@ ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
         .half_width_m = (float)fabs(camera->x_mag),
         .half_height_m = (float)fabs(camera->y_mag),
         .aspect = (float)camera->aspect};
+    apply_shift(reader, place, camera, &desc);
     const char *fault = camera_fault(camera);
     for (uint32_t i = 0; i < steps && !fault; ++i) {
         fault = ppmi_gltf_rigid_transform(ppmi_gltf_pose_world(reader->pose, node, i, steps), true,

@@ -139,6 +139,7 @@ static void deinit(ppmi_gltf_reader *r)
     ppmi_gltf_close_files(r);
     ppmi_free(r->context, r->buffers);
     ppmi_free(r->context, r->images);
+    ppmi_gltf_free_blends(r);
     ppmi_free(r->context, r->profiles);
     ppmi_free(r->context, r->materials);
     ppmi_free(r->context, r->meshes);

@@ -23,6 +23,7 @@ ppmi_gltf_lamp_extras ppmi_gltf_merge_extras(const ppmi_gltf_lamp_extras *own,
     if (merged.radius_m < 0.0) merged.radius_m = node->radius_m;
     if (merged.angle_rad < 0.0) merged.angle_rad = node->angle_rad;
     if (merged.visible < 0) merged.visible = node->visible;
+    if (merged.blend < 0.0) merged.blend = node->blend;
     return merged;
 }
 
@@ -125,6 +126,8 @@ static ppm_status add_punctual(ppmi_gltf_reader *reader, int32_t node, const dou
     }
     const ppmi_gltf_lamp_extras extras = ppmi_gltf_merge_extras(&light->lamp, &from->lamp);
     apply_extras(reader, place, &extras, &desc);
+    const ppm_status status = ppmi_gltf_blend_spot(reader, place, extras.blend, &desc);
+    if (status != PPM_STATUS_OK) return status;
     count_light(reader, light);
     return ppmi_gltf_put_light(reader, node, PPMI_GLTF_WAY_PUNCTUAL, &desc);
 }

@@ -14,6 +14,11 @@ ppm_status ppmi_gltf_add_area_light(ppmi_gltf_reader *reader, int32_t node, cons
 ppm_status ppmi_gltf_add_area_extras(ppmi_gltf_reader *reader, int32_t node,
                                      const double world[16]);
 
+/* gltf_blend.c: gives a spot the falloff of Blender's, extras.ppm_blend; below 0: not said. */
+ppm_status ppmi_gltf_blend_spot(ppmi_gltf_reader *reader, const char *place, double blend,
+                                ppm_light_desc *desc);
+void ppmi_gltf_free_blends(ppmi_gltf_reader *reader);
+
 /* gltf_ies.c */
 ppm_status ppmi_gltf_add_ies_light(ppmi_gltf_reader *reader, int32_t node, const double world[16]);
 

@@ -67,6 +67,7 @@ struct ppmi_gltf_reader {
     ppmi_gltf_decoded *decoded;       /* what was compressed; NULL: nothing yet */
     ppmi_gltf_image_use *images;      /* two per image: colour, data */
     ppmi_gltf_profile_use *profiles;  /* one per light profile */
+    struct ppmi_gltf_blend *blends;   /* falloffs of spots so far (gltf_blend.c) */
     ppm_material_id *materials;       /* one per material; 0: not added yet */
     ppm_mesh_id *meshes;              /* one per mesh; 0: not added yet */
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */

@@ -112,9 +112,10 @@ static const gltf_field mesh[] = {
 /* extras may be anything (specification, 3.4); ours are objects with these members */
 static const gltf_field area_extras[] = {STRING("shape"), NUMBER("radiance"), NUMBER("power_w"),
                                          NUMBERS("color", 3, 0), END};
-static const gltf_field lamp_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"), END};
+static const gltf_field lamp_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"),
+                                         NUMBER("ppm_blend"), END};
 static const gltf_field node_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"),
-                                         OBJECT("ppm_area", area_extras), END};
+                                         NUMBER("ppm_blend"), OBJECT("ppm_area", area_extras), END};
 static const gltf_field node_light[] = {INDEX("light", GLTF_REQUIRED), END};
 static const gltf_field node_instancing[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
@@ -186,12 +187,15 @@ static const gltf_field orthographic[] = {
     FIELD("ymag", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("zfar", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("znear", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
-static const gltf_field camera[] = {STRING("name"),
-                                    FIELD("type", GLTF_STRING,
-                                          .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
-                                          .choices = " perspective orthographic "),
-                                    VITAL_OBJECT("perspective", perspective, 0),
-                                    VITAL_OBJECT("orthographic", orthographic, 0), END};
+static const gltf_field camera_extras[] = {NUMBERS("ppm_shift", 2, 0), END};
+static const gltf_field camera[] = {
+    STRING("name"),
+    FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = camera_extras),
+    FIELD("type", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_NAMES_MEMBER,
+          .choices = " perspective orthographic "),
+    VITAL_OBJECT("perspective", perspective, 0),
+    VITAL_OBJECT("orthographic", orthographic, 0),
+    END};
 
 static const gltf_field spot[] = {NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END};
 static const gltf_field light[] = {

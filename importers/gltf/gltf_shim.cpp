@@ -486,7 +486,8 @@ ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
 {
     const Value &visible = member(extras, "ppm_visible");
     ppmi_gltf_lamp_extras out = {number_or(extras, "ppm_radius", -1.0),
-                                 number_or(extras, "ppm_angle", -1.0), -1};
+                                 number_or(extras, "ppm_angle", -1.0), -1,
+                                 number_or(extras, "ppm_blend", -1.0)};
     if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
     if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
     return out;
@@ -611,9 +612,15 @@ void copy_animations(Document *document)
 
 ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
 {
-    return {from.name.c_str(),      from.type == "orthographic",
-            from.perspective.yfov,  from.perspective.aspectRatio,
-            from.orthographic.xmag, from.orthographic.ymag};
+    ppmi_gltf_camera out = {from.name.c_str(),
+                            from.type == "orthographic",
+                            from.perspective.yfov,
+                            from.perspective.aspectRatio,
+                            from.orthographic.xmag,
+                            from.orthographic.ymag,
+                            {0.0, 0.0}};
+    numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
+    return out;
 }
 
 ppmi_gltf_light copy_light(const tinygltf::Light &from)

@@ -111,6 +111,7 @@ typedef struct ppmi_gltf_lamp_extras {
     double radius_m;  /* ppm_radius */
     double angle_rad; /* ppm_angle */
     int32_t visible;  /* ppm_visible */
+    double blend;     /* ppm_blend */
 } ppmi_gltf_lamp_extras;
 
 /* extras.ppm_area of a node */
@@ -183,6 +184,7 @@ typedef struct ppmi_gltf_camera {
     bool is_orthographic;
     double y_fov_rad, aspect; /* aspect 0: not said */
     double x_mag, y_mag;
+    double shift[2]; /* extras.ppm_shift */
 } ppmi_gltf_camera;
 
 enum { PPMI_GLTF_LIGHT_POINT, PPMI_GLTF_LIGHT_SPOT, PPMI_GLTF_LIGHT_DIRECTIONAL };

@@ -312,6 +312,8 @@ typedef struct ppm_camera_desc {
     float focus_distance_m; /* along the axis; 0: not said */
     uint32_t motion_steps;  /* as in ppm_instance_desc */
     const float *motion;
+    float shift[2]; /* moves the picture to the right and up in its plane, by so many of its
+                       heights, as a shift lens does: -100 .. 100 */
 } ppm_camera_desc;
 
 PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,

@@ -18,6 +18,8 @@ void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t h
         .up = vec3_scale(camera->up, half_height),
         .width = (float)width,
         .height = (float)height,
+        .shift_x = 2.0f * camera->shift[0] / aspect,
+        .shift_y = 2.0f * camera->shift[1],
         .spread = is_perspective ? pixel : 0.0f,
         .base_width = is_perspective ? 0.0f : pixel,
         .is_perspective = is_perspective,
@@ -119,8 +121,8 @@ static ppmi_vec3 unit_change(ppmi_vec3 unit, ppmi_vec3 step, float scale)
 ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x, float y,
                                           ppmi_vec2 lens)
 {
-    const float sx = 2.0f * x / view->width - 1.0f;
-    const float sy = 1.0f - 2.0f * y / view->height;
+    const float sx = 2.0f * x / view->width - 1.0f + view->shift_x;
+    const float sy = 1.0f - 2.0f * y / view->height + view->shift_y;
     ppmi_vec3 offset = vec3_mad(vec3_scale(view->right, sx), view->up, sy);
     ppmi_camera_ray result = {
         .ray = {.origin = view->origin, .t_max = INFINITY, .direction = view->forward},

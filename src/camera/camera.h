@@ -17,6 +17,7 @@ typedef struct ppmi_camera_view {
     ppmi_vec3 lens_right, lens_up; /* the lens's radius, metres; 0: a pinhole */
     float inverse_focus;           /* 1 / distance of the plane that is sharp, 1/m */
     float width, height;           /* pixels */
+    float shift_x, shift_y;        /* of the picture, in its half width and height */
     float spread;                  /* perspective: angle of a pixel, radians */
     float base_width;              /* orthographic: width of a pixel, metres */
     bool is_perspective;

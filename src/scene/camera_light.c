@@ -89,9 +89,11 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
     const char *name = desc->name ? desc->name : "";
     const bool lens_is_valid = desc->f_number >= 0.0f && desc->focus_distance_m >= 0.0f &&
                                isfinite(desc->focus_distance_m);
-    if (!lens_is_valid || !camera_is_valid(desc)) {
+    const bool shift_is_valid = fabsf(desc->shift[0]) <= 100.0f && fabsf(desc->shift[1]) <= 100.0f;
+    if (!lens_is_valid || !shift_is_valid || !camera_is_valid(desc)) {
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "camera '%s': angle, size, aspect, lens or transform out of range", name);
+                         "camera '%s': angle, size, aspect, lens, shift or transform out of range",
+                         name);
     }
     ppmi_camera *cameras =
         ppmi_scene_grow(scene->context, scene->cameras, scene->camera_count, sizeof *cameras);
@@ -106,6 +108,7 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .aspect = is_orthographic ? desc->half_width_m / desc->half_height_m : desc->aspect,
         .f_number = desc->f_number,
         .focus_distance_m = desc->focus_distance_m,
+        .shift = {desc->shift[0], desc->shift[1]},
     };
     status = load_motion(scene, desc, name, &camera);
     if (status != PPM_STATUS_OK) return status;

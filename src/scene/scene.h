@@ -120,6 +120,7 @@ typedef struct ppmi_camera {
     float aspect;
     float f_number;         /* 0: pinhole */
     float focus_distance_m; /* 0: not said */
+    float shift[2];         /* in heights of the picture */
 } ppmi_camera;
 
 typedef struct ppmi_punctual {

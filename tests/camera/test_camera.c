@@ -52,6 +52,22 @@ static void the_picture_is_upright_and_its_first_row_is_on_top(void **state)
     assert_near(ppmi_camera_view_ray(&view, 0, 0).ray.origin.x, 1.0, 0.0);
 }
 
+/* By a quarter of the height to the right and half of it up: whatever the aspect. */
+static void a_shift_moves_the_picture_in_its_plane(void **state)
+{
+    (void)state;
+    const ppm_camera_id id =
+        camera_perspective(test.scene, vec3(0, 0, 0), vec3(0, 0, -1), 2.0f * atanf(0.5f));
+    test.scene->cameras[id - 1].shift[0] = 0.25f;
+    test.scene->cameras[id - 1].shift[1] = 0.5f;
+    for (uint32_t width = 50; width <= 200; width += 150) {
+        const ppmi_camera_view view = view_of(id, width, 100);
+        const float x = 0.5f * (float)width;
+        assert_direction(ppmi_camera_view_ray(&view, x, 50).ray.direction, 0.25f, 0.5f, -1);
+        assert_direction(ppmi_camera_view_ray(&view, x, 100).ray.direction, 0.25f, 0, -1);
+    }
+}
+
 /* The angle stays vertical whatever the picture's aspect. */
 static void the_vertical_angle_does_not_depend_on_the_aspect(void **state)
 {
@@ -176,6 +192,7 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(the_picture_is_upright_and_its_first_row_is_on_top),
+        WITH_SCENE(a_shift_moves_the_picture_in_its_plane),
         WITH_SCENE(the_vertical_angle_does_not_depend_on_the_aspect),
         WITH_SCENE(the_cone_is_as_wide_as_a_pixel),
         WITH_SCENE(orthographic_rays_are_parallel),

@@ -47,6 +47,27 @@ static void perspective_cameras_are_read(void **state)
     assert_float_equal(camera[1].aspect, 0.0f, 0.0f);
 }
 
+static void a_shift_comes_from_the_extras_of_a_camera(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char camera[] =
+        "{'type':'perspective','extras':{'ppm_shift':%s},'perspective':{'yfov':1,'znear':1}}";
+    static const char *const unusable[] = {"7", "[1]", "['a','b']", "[1,1e9]"};
+    char text[256];
+    for (size_t i = 0; i < sizeof unusable / sizeof unusable[0]; ++i) {
+        snprintf(text, sizeof text, camera, unusable[i]);
+        assert_gltf_status(f, import_cameras(f, "{'camera':0}", text), PPM_STATUS_OK);
+        assert_int_equal(f->scene->camera_count, 1);
+        assert_float_equal(f->scene->cameras[0].shift[0], 0.0f, 0.0f);
+        if (i == 3) assert_gltf_logged(f, 'W', "extras.ppm_shift [1, 1e+09] left out");
+        gltf_reset(f);
+    }
+    snprintf(text, sizeof text, camera, "[0.25,-0.5]");
+    assert_gltf_status(f, import_cameras(f, "{'camera':0}", text), PPM_STATUS_OK);
+    assert_float_equal(f->scene->cameras[0].shift[0], 0.25f, 0.0f);
+    assert_float_equal(f->scene->cameras[0].shift[1], -0.5f, 0.0f);
+}
+
 static void orthographic_cameras_show_twice_their_magnification(void **state)
 {
     gltf_fixture *f = *state;
@@ -193,6 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(perspective_cameras_are_read),
+        TEST(a_shift_comes_from_the_extras_of_a_camera),
         TEST(orthographic_cameras_show_twice_their_magnification),
         TEST(invalid_cameras_are_left_out_with_a_warning),
         TEST(a_node_of_no_size_has_no_camera),

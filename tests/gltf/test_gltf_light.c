@@ -1,9 +1,11 @@
-/* importers/gltf/gltf_light.c, gltf_area.c, gltf_ies.c: lights with an extent, or a profile. */
+/* importers/gltf/gltf_light.c, gltf_area.c, gltf_blend.c, gltf_ies.c: lights with an extent, or a
+ * profile. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "gltf_fixture.h"
+#include "light/punctual.h"
 
 #define PI 3.14159265358979323846f
 
@@ -66,6 +68,37 @@ static void an_angle_is_the_diameter_of_a_sun(void **state)
                        PPM_STATUS_OK);
     assert_float_equal(f->scene->punctuals[0].angular_radius_rad, 0.005f, 1e-9f);
     assert_float_equal(f->scene->punctuals[0].radius_m, 0.0f, 0.0f);
+}
+
+/* Both values by Blender 3.4: an angle of 1.2 rad and a blend of 0.5, 0.45 rad from the axis. */
+static void a_blend_gives_a_spot_the_falloff_of_blender(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char spot[] =
+        PUNCTUAL("{'type':'spot','spot':{'innerConeAngle':0.3,'outerConeAngle':0.6},"
+                 "'extras':{'ppm_blend':0.5}}");
+    assert_gltf_status(f, import(f, "x", NODE("") "," NODE(""), spot), PPM_STATUS_OK);
+    assert_int_equal(f->scene->punctual_count, 2);
+    assert_int_equal(f->scene->profile_count, 1);
+    const ppmi_punctual *light = &f->scene->punctuals[1];
+    const ppmi_vec3 ahead = light->direction;
+    const ppmi_vec3 aside = vec3_mad(vec3_scale(ahead, cosf(0.45f)), light->right, sinf(0.45f));
+    const ppmi_vec3 beyond = vec3_mad(vec3_scale(ahead, cosf(0.61f)), light->up, sinf(0.61f));
+    assert_float_equal(ppmi_punctual_intensity(f->scene, light, ahead).y, 1.0f, 1e-5f);
+    assert_float_equal(ppmi_punctual_intensity(f->scene, light, aside).y, 0.85f, 0.005f);
+    assert_float_equal(ppmi_punctual_intensity(f->scene, light, beyond).y, 0.0f, 0.0f);
+}
+
+static void a_blend_out_of_range_leaves_the_spot_as_it_is(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(f,
+                       import(f, "x", NODE(",'extras':{'ppm_blend':1.5}"),
+                              PUNCTUAL("{'type':'spot','spot':{'innerConeAngle':0.3}}")),
+                       PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "extras.ppm_blend 1.5 left out");
+    assert_float_equal(f->scene->punctuals[0].cos_inner, cosf(0.3f), 1e-6f);
+    assert_int_equal(f->scene->profile_count, 0);
 }
 
 static void extras_of_any_form_do_no_harm(void **state)
@@ -334,6 +367,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_radius_comes_from_the_light_or_else_its_node),
         TEST(an_angle_is_the_diameter_of_a_sun),
+        TEST(a_blend_gives_a_spot_the_falloff_of_blender),
+        TEST(a_blend_out_of_range_leaves_the_spot_as_it_is),
         TEST(extras_of_any_form_do_no_harm),
         TEST(a_range_is_said_not_to_be_used_once),
         TEST(area_lights_have_the_defaults_of_the_extension),
