@@ -195,10 +195,12 @@ static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
     if (!has_speculars(bsdf)) return left;
     const ppmi_albedo_pair pair = spec_pair(bsdf, albedo, w);
     float dielectric = pair_value(pair, bsdf->coat_f0, bsdf->coat_f90), metal = pair.a + pair.b;
-    if (is_covered || layers->film > 0.0f) {
+    /* under a pure metal nothing asks for the dielectric's share, and a film is costly */
+    const bool has_film = layers->film > 0.0f && layers->metallic < 1.0f;
+    if (is_covered || has_film) {
         ppmi_lobe_nodes nodes;
         const int count = spec_nodes(bsdf, albedo, w.z, &nodes);
-        if (layers->film > 0.0f) {
+        if (has_film) {
             const float film = film_albedo(layers, pair, &nodes, count);
             dielectric += (film - dielectric) * layers->film;
         }
