@@ -108,9 +108,9 @@ static ppmi_vec3 visible_normal(ppmi_vec3 ns, ppmi_vec3 ng, ppmi_vec3 wo)
     return vec3_normalize(vec3_mad(ns, wo, least - cosine));
 }
 
-static void make_layered(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                         const ppmi_material_point *point, ppmi_vec3 wo, ppmi_vec3 dielectric_f0,
-                         float opaque)
+__attribute__((noinline)) static void make_layered(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                                   const ppmi_material_point *point, ppmi_vec3 wo,
+                                                   ppmi_vec3 dielectric_f0, float opaque)
 {
     bsdf->coat_f0 = vec3_max_component(dielectric_f0);
     bsdf->coat_f90 = point->specular;
@@ -316,9 +316,10 @@ static bool sides_agree(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float local_z)
 }
 
 /* The coat reflects about a normal of its own: it alone may reach below the base's horizon. */
-static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                              ppmi_vec3 wi_world, ppmi_vec3 wi, uint32_t mask,
-                              ppmi_transport transport)
+__attribute__((noinline)) static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf,
+                                                        const ppmi_albedo_table *albedo,
+                                                        ppmi_vec3 wi_world, ppmi_vec3 wi,
+                                                        uint32_t mask, ppmi_transport transport)
 {
     ppmi_vec3 f = vec3_splat(0.0f);
     if (sides_agree(bsdf, wi_world, wi.z)) {
@@ -362,7 +363,8 @@ float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
     return sum;
 }
 
-static float layered_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, ppmi_vec3 wi, uint32_t mask)
+__attribute__((noinline)) static float layered_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world,
+                                                   ppmi_vec3 wi, uint32_t mask)
 {
     float pdf = 0.0f;
     if (sides_agree(bsdf, wi_world, wi.z)) {

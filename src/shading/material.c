@@ -12,12 +12,12 @@ static float unit(float x)
     return ppmi_clampf(x, 0.0f, 1.0f);
 }
 
-static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surface,
-                               const ppm_texture *texture, float scale)
+__attribute__((noinline)) static ppmi_vec3 look_up_normal(const ppm_scene *scene,
+                                                          const ppmi_surface *surface,
+                                                          const ppm_texture *texture, float scale)
 {
     ppmi_vec3 tangent, bitangent;
-    if (texture->image == 0 ||
-        !ppmi_surface_tangents(surface, texture->uv_set, &tangent, &bitangent)) {
+    if (!ppmi_surface_tangents(surface, texture->uv_set, &tangent, &bitangent)) {
         return surface->ns;
     }
     const ppmi_texel texel = lookup(scene, surface, texture);
@@ -27,6 +27,12 @@ static ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surfa
     const ppmi_vec3 n = vec3_normalize(
         vec3_mad(vec3_mad(vec3_scale(tangent, x), bitangent, y), surface->ns, ppmi_max(z, 1e-3f)));
     return vec3_dot(n, surface->ng) > 0.0f && vec3_is_finite(n) ? n : surface->ns;
+}
+
+static inline ppmi_vec3 mapped_normal(const ppm_scene *scene, const ppmi_surface *surface,
+                                      const ppm_texture *texture, float scale)
+{
+    return texture->image == 0 ? surface->ns : look_up_normal(scene, surface, texture, scale);
 }
 
 /* KHR_materials_pbrSpecularGlossiness has its glossiness in alpha, beside the specular colour. */
@@ -80,8 +86,8 @@ static void evaluate_film(const ppm_scene *scene, const ppmi_surface *surface,
     layers->film_nm = ppmi_max(least + (desc->iridescence_thickness_max_nm - least) * t, 0.0f);
 }
 
-static void evaluate_layers(const ppm_scene *scene, const ppmi_surface *surface,
-                            ppmi_layer_point *layers)
+__attribute__((noinline)) static void
+evaluate_layers(const ppm_scene *scene, const ppmi_surface *surface, ppmi_layer_point *layers)
 {
     const ppm_material_desc *desc = &surface->material->desc;
     const ppmi_texel sheen = lookup(scene, surface, &desc->sheen_color_texture);

@@ -19,7 +19,8 @@ static const uint32_t *triangle_of(const ppmi_surface *surface)
     return surface->primitive->indices + 3 * (size_t)surface->triangle;
 }
 
-static ppmi_vec3 interpolate_still(const float *values, const uint32_t *triangle, float u, float v)
+static inline ppmi_vec3 interpolate_still(const float *values, const uint32_t *triangle, float u,
+                                          float v)
 {
     const ppmi_vec3 a = vec3_load(values + 3 * (size_t)triangle[0]);
     const ppmi_vec3 b = vec3_load(values + 3 * (size_t)triangle[1]);
@@ -54,10 +55,10 @@ static inline ppmi_vec3 local_normal(const ppmi_surface *surface)
                : interpolate_moving(surface, primitive->normals);
 }
 
-static ppmi_vec3 shading_normal(const ppmi_surface *surface, const ppmi_transform *normals)
+/* From the mesh's normal, object space. */
+static inline ppmi_vec3 shading_normal(const ppmi_surface *surface, const ppmi_transform *normals,
+                                       ppmi_vec3 local)
 {
-    if (!surface->primitive->normals) return surface->ng;
-    const ppmi_vec3 local = local_normal(surface);
     const ppmi_vec3 world = ppmi_transform_vector(normals, local);
     const float length = vec3_length(world);
     if (!(length > 1e-6f)) return surface->ng;
@@ -142,7 +143,7 @@ place_on_triangle(ppmi_surface *surface, const ppmi_transform *to_world,
     surface->error = error_ulps * FLT_EPSILON * magnitude;
 }
 
-static void place_at_time(ppmi_surface *surface)
+__attribute__((noinline)) static void place_at_time(ppmi_surface *surface)
 {
     if (surface->primitive->kind != PPM_PRIMITIVE_TRIANGLES) {
         place_on_round(surface);
@@ -153,7 +154,9 @@ static void place_at_time(ppmi_surface *surface)
     load_triangle(surface, &a, &ab, &ac);
     place_on_triangle(surface, &at.to_world, &at.normals, a, ab, ac, at.local_reach,
                       at.origin_reach);
-    surface->ns = shading_normal(surface, &at.normals);
+    surface->ns = surface->primitive->normals
+                      ? shading_normal(surface, &at.normals, local_normal(surface))
+                      : surface->ng;
 }
 
 void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_surface *out_surface)
@@ -181,7 +184,10 @@ void ppmi_surface_from_hit(const ppm_scene *scene, const ppmi_hit *hit, ppmi_sur
     const ppmi_vec3 ac = vec3_sub(vec3_load(positions + 3 * (size_t)triangle[2]), a);
     place_on_triangle(surface, &instance->to_world, &instance->normals, a, ab, ac, 0.0f,
                       vec3_max_abs(instance->to_world.origin));
-    surface->ns = shading_normal(surface, &instance->normals);
+    surface->ns = surface->ng;
+    if (!primitive->normals) return;
+    const ppmi_vec3 n = interpolate_still(primitive->normals, triangle, surface->u, surface->v);
+    surface->ns = shading_normal(surface, &instance->normals, n);
 }
 
 float ppmi_surface_area(const ppmi_surface *surface)

@@ -22,6 +22,7 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
         world->has_alpha = world->has_alpha || material->has_alpha;
         world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
     }
+    world->has_lamps = lights && ppmi_lights_have_lamps(lights);
     for (uint32_t i = 0; i < scene->image_count; i++)
         world->has_textures = world->has_textures || scene->images[i].mip_count > 0;
     ppmi_vec3 low, high;
@@ -101,7 +102,7 @@ static void offer(ppmi_walker *walker, const ppmi_medium_span *span, const ppmi_
 
 /* Takes the path through the medium before a hit (at t_max; infinite: none). False where it is
  * scattered on the way; a path with a choice never is, but offers it where it could be. */
-static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, ppmi_vertex *vertex,
+static bool cross_filled(ppmi_walker *walker, const ppmi_ray *ray, float t_max, ppmi_vertex *vertex,
                          scatter_choice *choice)
 {
     const ppmi_medium_span span = ppmi_media_span(walker->world, &walker->interior, ray, t_max);
@@ -123,6 +124,13 @@ static bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max, 
     return false;
 }
 
+static inline bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float t_max,
+                                ppmi_vertex *vertex, scatter_choice *choice)
+{
+    const bool is_empty = !walker->world->has_fog && walker->interior.count == 0;
+    return is_empty || cross_filled(walker, ray, t_max, vertex, choice);
+}
+
 /* Adds what a lamp sends along the ray that meets it, at distance from where the path comes from.
  */
 static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_lamp_hit *lamp,
@@ -141,8 +149,9 @@ static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_
 
 /* Takes an eye path past the lamps before a hit (at ray->t_max; infinite: none), and the ray with
  * it. False where a medium scatters it on the way. */
-static bool pass_lamps(ppmi_walker *walker, ppmi_ray *ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
-                       scatter_choice *choice)
+__attribute__((noinline)) static bool pass_lamps(ppmi_walker *walker, ppmi_ray *ray,
+                                                 ppmi_ray_kind kind, ppmi_vertex *vertex,
+                                                 scatter_choice *choice)
 {
     const ppmi_ray whole = *ray;
     ppmi_lamp_hit lamp = {.t = 0.0f};
@@ -167,7 +176,7 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
     vertex->transmittance = vec3_splat(1.0f);
     vertex->lamplight = vec3_splat(0.0f);
     vertex->relative_index = vertex->drawn_wavelength = 0.0f;
-    const bool sees_lamps = walker->origin && ppmi_lights_have_lamps(walker->world->lights);
+    const bool sees_lamps = walker->world->has_lamps && walker->origin;
     for (int i = 0; i < MAX_SURFACES_PASSED; i++) {
         const bool is_hit = trace(walker, &ray, vertex);
         ray.t_max = is_hit ? vertex->hit.t : INFINITY;
@@ -335,8 +344,9 @@ void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_v
 }
 
 /* How neighbouring rays leave. */
-static void leave_with_neighbours(ppmi_walker *walker, const ppmi_vertex *vertex,
-                                  const ppmi_bsdf_sample *sample)
+__attribute__((noinline)) static void leave_with_neighbours(ppmi_walker *walker,
+                                                            const ppmi_vertex *vertex,
+                                                            const ppmi_bsdf_sample *sample)
 {
     ppmi_differential *differential = &walker->differential;
     if (!sample->is_delta) {

@@ -21,6 +21,7 @@ typedef struct ppmi_world {
     const ppmi_contacts *contacts;
     bool has_alpha;    /* some material lets rays pass */
     bool has_textures; /* some image has mipmaps: footprints matter */
+    bool has_lamps;    /* some light has an extent and no surface */
     bool has_fog;
     bool has_scattering;  /* some medium scatters */
     ppmi_vec3 fog_center; /* the ball that the fog fills */

@@ -50,7 +50,7 @@ static void lists_grow_and_keep_their_order(void **state)
     (void)state;
     ppmi_catalog catalog = {0};
     for (int i = 0; i < 100; i++) {
-        char name[16];
+        char name[32];
         snprintf(name, sizeof name, "node %d", i);
         ppmi_catalog_item *const item = ppmi_catalog_add(&catalog, PPM_ASSET_NODES, name, "");
         assert_non_null(item);
