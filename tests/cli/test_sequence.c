@@ -106,7 +106,7 @@ static void names_that_only_the_file_knows_are_answered_with_its_own(void **stat
     assert_refused(QUICK "--frame 1 --animation Slid moving.gltf", "no animation 'Slid'; ");
     assert_refused(QUICK "--scene Hall moving.gltf", "--scene: no scene 'Hall'; there is 1");
     assert_refused(QUICK "--scene 2 moving.gltf", "--scene: no scene '2'");
-    assert_refused(QUICK "--variant Red moving.gltf", "--variant: 'Red': the file has no variant");
+    assert_refused(QUICK "--variant Red moving.gltf", "no variant 'Red': the file has none");
     assert_refused(QUICK "--camera Fron moving.gltf",
                    "no camera 'Fron'; there are 2: 'Front', 'Side'; did you mean 'Front'?");
 }
