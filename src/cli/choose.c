@@ -11,8 +11,8 @@
 
 static int refuse_all(cli_console *console, const choice_list *list, const char *text)
 {
-    console_message(console, PPM_LOG_ERROR, "%s: '%s': the file has no %s", list->option, text,
-                    list->thing);
+    console_message(console, PPM_LOG_ERROR, "%s: no %s '%s': the file has none", list->option,
+                    list->thing, text);
     return EXIT_USAGE;
 }
 

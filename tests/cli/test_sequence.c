@@ -223,6 +223,17 @@ static void the_header_says_which_frame_it_is(void **state)
     assert_there((const char *const[]){"frame.exr", "still.exr", NULL});
 }
 
+static void pictures_carry_what_the_file_says_about_itself(void **state)
+{
+    (void)state;
+    static const char owner[] = "owner\0string\0\13\0\0\0002026 nobody";
+    static const char xmp[] = "ppm:xmp\0string\0\24\0\0\0{\"dc:title\": \"Tiny\"}";
+    run_well(QUICK "-o owned.exr tiny.gltf");
+    assert_header_holds("owned.exr", owner, sizeof owner - 1);
+    assert_header_holds("owned.exr", xmp, sizeof xmp - 1);
+    assert_there((const char *const[]){"owned.exr", NULL});
+}
+
 static void animations_that_are_not_played_are_told(void **state)
 {
     (void)state;
@@ -370,6 +381,7 @@ int main(void)
         cmocka_unit_test(a_frame_alone_has_the_bits_that_it_has_in_a_sequence),
         cmocka_unit_test(all_frames_are_framed_alike),
         cmocka_unit_test(the_header_says_which_frame_it_is),
+        cmocka_unit_test(pictures_carry_what_the_file_says_about_itself),
         cmocka_unit_test(animations_that_are_not_played_are_told),
         cmocka_unit_test(only_missing_pictures_are_rendered),
         cmocka_unit_test(cameras_that_are_there_are_skipped),

@@ -30,7 +30,11 @@ static void put_base64(FILE *file, const unsigned char *bytes, size_t count)
 }
 
 static const char head[] =
-    "{\"asset\": {\"version\": \"2.0\", \"generator\": \"ppm tests\"},\n"
+    "{\"asset\": {\"version\": \"2.0\", \"generator\": \"ppm tests\",\n"
+    "  \"copyright\": \"2026 nobody\",\n"
+    "  \"extensions\": {\"KHR_xmp_json_ld\": {\"packet\": 0}}},\n"
+    " \"extensionsUsed\": [\"KHR_xmp_json_ld\"],\n"
+    " \"extensions\": {\"KHR_xmp_json_ld\": {\"packets\": [{\"dc:title\": \"Tiny\"}]}},\n"
     " \"scene\": 0, \"scenes\": [{\"nodes\": [0, 1, 2, 3]}],\n"
     " \"nodes\": [\n"
     "  {\"name\": \"Floor\", \"mesh\": 0},\n"

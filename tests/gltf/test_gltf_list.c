@@ -140,7 +140,7 @@ static void area_lights_are_listed_too(void **state)
            "{'name':'A','extensions':{'EXT_lights_area':{'light':0}}},"
            "{'name':'B','extras':{'ppm_area':{'shape':'rect','size':[2,0.5],'radiance':1}}}],"
            "'extensionsUsed':['EXT_lights_area'],'extensions':{'EXT_lights_area':{'lights':["
-           "{'name':'L','type':'area','shape':'disk','intensity':3,'size':1}]}}}");
+           "{'name':'L','type':'disk','intensity':3,'size':1}]}}}");
     assert_item(asset, PPM_ASSET_LIGHTS, 0, "L", "area, disk, 3 nit");
     assert_item(asset, PPM_ASSET_LIGHTS, 1, "B", "area, rect, 2 x 0.5 m");
     ppm_asset_close(asset);
