@@ -83,6 +83,7 @@ void methods_agree(ppm_scene *scene, const method_comparison *how)
     for (uint32_t i = 0; i < METHOD_VALUES; i++)
         mean_check_power(&paths[i], how->resolution);
     for (uint32_t m = 0; m < PHOTON_METHODS; m++) {
+        if (how->left_out >> m & 1) continue;
         ppm_render_options with = method_options(&photon_methods[m], how->width, how->photons);
         with.radius_m = how->radius_m;
         method_blocks(scene, &with, how->passes, how->seeds, photons);
