@@ -38,7 +38,8 @@ typedef struct method_comparison {
     double bias;          /* bound of the relative bias of density estimation */
     double resolution;    /* relative standard error that each block's mean must reach */
     uint32_t seeds;
-    uint32_t left_out; /* mask of photon_methods */
+    uint32_t left_out;    /* mask of photon_methods */
+    float shutter_frames; /* for which it is open; 0: a moment */
 } method_comparison;
 
 /* Means of METHOD_BLOCKS blocks in three channels. */
