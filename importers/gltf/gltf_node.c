@@ -363,5 +363,8 @@ ppm_status ppmi_gltf_pose_nodes(ppmi_gltf_reader *reader, const ppm_pose *when)
         if (!ppmi_gltf_animations_change(reader, PPMI_GLTF_MATERIALS, (int32_t)i)) continue;
         status = ppmi_gltf_update_material(reader, (int32_t)i);
     }
-    return status == PPM_STATUS_OK ? emit_nodes(reader) : status;
+    if (status == PPM_STATUS_OK) status = emit_nodes(reader);
+    /* the scene is between two poses: to the next one all is new */
+    if (status != PPM_STATUS_OK) reader->pose->sample_count = 0;
+    return status;
 }

@@ -52,6 +52,14 @@ static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bs
     return true;
 }
 
+/* A half transparent surface stops its share of the photons, as it does of eye paths: those that
+ * are stopped stand for all that came, or its opacity would count twice. */
+static ppmi_vec3 arriving_power(const ppm_scene *scene, const ppmi_vertex *vertex, ppmi_vec3 power)
+{
+    if (vertex->medium || !vertex->surface.material->has_alpha) return power;
+    return vec3_scale(power, 1.0f / ppmi_surface_opacity(scene, &vertex->surface));
+}
+
 static bool store(ppm_context *context, ppmi_photon_list *lists, uint32_t path,
                   const ppmi_vertex *vertex, const ppmi_bsdf *bsdf, const ppmi_ray *ray,
                   ppmi_vec3 power)
@@ -82,7 +90,8 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
         if (depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
-            !store(context, lists, path, &vertex, &bsdf, &ray, power)) {
+            !store(context, lists, path, &vertex, &bsdf, &ray,
+                   arriving_power(walk->world->scene, &vertex, power))) {
             return false;
         }
         if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power)) return true;

@@ -533,6 +533,37 @@ static void every_allocation_may_fail(void **state)
     assert_true(n > 80);
 }
 
+static ppm_status open_whole_rig(gltf_fixture *f, ppmi_gltf_asset **out_asset)
+{
+    return open_rig(f, ",'skin':0", INFLUENCES ",'NORMAL':1,'TANGENT':2", MORPH, SKIN TURN,
+                    out_asset);
+}
+
+static void a_pose_that_failed_can_be_taken_again(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_pose later = gltf_between(0.5, 1.0);
+    f->options.pose = gltf_between(0.0, 0.5);
+    ppmi_gltf_asset *asset;
+    assert_gltf_status(f, open_whole_rig(f, &asset), PPM_STATUS_OK);
+    assert_gltf_status(f, ppmi_gltf_asset_set_pose(asset, &later), PPM_STATUS_OK);
+    const uint64_t expected = gltf_scene_hash(f->scene);
+    ppmi_gltf_asset_close(asset);
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    for (size_t n = 1; status == PPM_STATUS_OUT_OF_MEMORY; ++n) {
+        gltf_reset(f);
+        assert_gltf_status(f, open_whole_rig(f, &asset), PPM_STATUS_OK);
+        ppmi_alloc_fail_at(f->context, n);
+        status = ppmi_gltf_asset_set_pose(asset, &later);
+        ppmi_alloc_fail_at(f->context, 0);
+        assert_gltf_status(f, ppmi_gltf_asset_set_pose(asset, &later), PPM_STATUS_OK);
+        assert_true(gltf_scene_hash(f->scene) == expected);
+        ppmi_gltf_asset_close(asset);
+        assert_true(n < 200);
+    }
+    assert_gltf_status(f, status, PPM_STATUS_OK);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -556,6 +587,7 @@ int main(void)
         TEST(vertices_move_while_the_shutter_is_open),
         TEST(only_meshes_that_keep_their_shape_are_shared),
         TEST(every_allocation_may_fail),
+        TEST(a_pose_that_failed_can_be_taken_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

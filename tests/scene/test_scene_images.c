@@ -92,6 +92,40 @@ static void images_that_fail_do_not_keep_others_out(void **state)
     assert_int_equal(test.scene->image_count, added);
 }
 
+/* Ids are counted on over the images that were added. Returns their number. */
+static uint32_t count_added(const ppm_image_id *ids, const ppm_status *statuses)
+{
+    uint32_t added = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        assert_true(statuses[i] == PPM_STATUS_OK || statuses[i] == PPM_STATUS_OUT_OF_MEMORY);
+        assert_int_equal(ids[i], statuses[i] == PPM_STATUS_OK ? ++added : 0);
+    }
+    assert_int_equal(test.scene->image_count, added);
+    return added;
+}
+
+static void each_allocation_that_fails_costs_one_image_or_all(void **state)
+{
+    (void)state;
+    ppm_image_desc descs[COUNT];
+    ppm_image_id ids[COUNT];
+    ppm_status statuses[COUNT];
+    uint32_t added = 0, n = 0;
+    for (uint32_t i = 0; i < COUNT; i++)
+        descs[i] = good(i + 1);
+    while (added < COUNT) {
+        scene_close(&test); /* nothing is left */
+        scene_open(&test);
+        ppmi_alloc_fail_at(test.context, ++n);
+        const ppm_status status = ppm_scene_add_images(test.scene, descs, COUNT, ids, statuses);
+        ppmi_alloc_fail_at(test.context, 0);
+        assert_true(status == PPM_STATUS_OK || status == PPM_STATUS_OUT_OF_MEMORY);
+        added = status == PPM_STATUS_OK ? count_added(ids, statuses) : 0;
+        if (status == PPM_STATUS_OK) assert_true(added >= COUNT - 1);
+    }
+    assert_true(n > 2 * COUNT); /* pixels and names */
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_scene, close_scene)
 
 int main(void)
@@ -99,6 +133,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(bad_arguments_are_refused_and_nothing_is_added),
         TEST(images_that_fail_do_not_keep_others_out),
+        TEST(each_allocation_that_fails_costs_one_image_or_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

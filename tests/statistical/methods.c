@@ -78,13 +78,16 @@ void methods_agree(ppm_scene *scene, const method_comparison *how)
 {
     test_family family = {0};
     test_mean paths[METHOD_VALUES], photons[METHOD_VALUES];
-    const ppm_render_options options = method_options(&path_method, how->width, 0);
+    ppm_render_options options = method_options(&path_method, how->width, 0);
+    options.shutter_close = how->shutter_frames;
     method_blocks(scene, &options, how->path_passes, how->seeds, paths);
     for (uint32_t i = 0; i < METHOD_VALUES; i++)
         mean_check_power(&paths[i], how->resolution);
     for (uint32_t m = 0; m < PHOTON_METHODS; m++) {
+        if (how->left_out >> m & 1) continue;
         ppm_render_options with = method_options(&photon_methods[m], how->width, how->photons);
         with.radius_m = how->radius_m;
+        with.shutter_close = how->shutter_frames;
         method_blocks(scene, &with, how->passes, how->seeds, photons);
         for (uint32_t i = 0; i < METHOD_VALUES; i++) {
             mean_check_power(&photons[i], how->resolution);
