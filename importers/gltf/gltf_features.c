@@ -101,7 +101,8 @@ void ppmi_gltf_note_core_features(ppmi_gltf_reader *reader)
     counts[SKINS] = reader->outline.lists[PPMI_GLTF_SKINS].count;
     for (size_t i = 0; i < FEATURE_COUNT; ++i) {
         if (counts[i] == 0) continue;
-        snprintf(note, sizeof note, "%zu %s%s", counts[i], rows[i].counted, rows[i].note);
+        const int length = (int)strlen(rows[i].counted) - (counts[i] == 1); /* without the s */
+        snprintf(note, sizeof note, "%zu %.*s%s", counts[i], length, rows[i].counted, rows[i].note);
         ppmi_gltf_note_feature(reader, rows[i].name, rows[i].verdict, note);
     }
 }

@@ -74,7 +74,9 @@ static void every_mode_makes_a_mesh_and_is_told(void **state)
         assert_int_equal(f->scene->mesh_count, 1);
         assert_int_equal(f->scene->instance_count, 1);
         assert_int_equal(f->scene->meshes[0].primitive_count, 1);
-        assert_gltf_logged(f, 'W', "1 primitives of points or lines: drawn as");
+        assert_gltf_logged(f, 'I',
+                           mode == 0 ? "approximated: points: 1 primitive: balls"
+                                     : "approximated: lines: 1 primitive: round segments");
         gltf_reset(f);
     }
 }

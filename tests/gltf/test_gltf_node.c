@@ -222,7 +222,7 @@ static void animations_are_reported(void **state)
         f,
         gltf_import(f, "{" GLTF_HEAD "'nodes':[{'mesh':0}],'animations':[{}]," GLTF_TRIANGLE "}"),
         PPM_STATUS_OK);
-    assert_gltf_logged(f, 'D', "honoured: animations: 1 animations");
+    assert_gltf_logged(f, 'D', "honoured: animations: 1 animation");
 }
 
 static void a_scene_is_chosen_by_name_or_number(void **state)

@@ -156,12 +156,12 @@ static void parts_of_the_core_format_are_counted(void **state)
                        "{'type':'point'}]}}}"),
         PPM_STATUS_OK);
     assert_gltf_logged(f, 'D', "honoured: vertex colours: 2 primitives");
-    assert_gltf_logged(f, 'W', "ignored: COLOR_1 and further: 1 primitives");
-    assert_gltf_logged(f, 'W', "ignored: TEXCOORD_8 and further: 1 primitives");
-    assert_gltf_logged(f, 'D', "honoured: alpha BLEND: 1 materials");
-    assert_gltf_logged(f, 'D', "honoured: alpha MASK: 1 materials");
-    assert_gltf_logged(f, 'I', "approximated: occlusion textures: 1 materials");
-    assert_gltf_logged(f, 'W', "ignored: light ranges: 1 lights");
+    assert_gltf_logged(f, 'W', "ignored: COLOR_1 and further: 1 primitive");
+    assert_gltf_logged(f, 'W', "ignored: TEXCOORD_8 and further: 1 primitive");
+    assert_gltf_logged(f, 'D', "honoured: alpha BLEND: 1 material");
+    assert_gltf_logged(f, 'D', "honoured: alpha MASK: 1 material");
+    assert_gltf_logged(f, 'I', "approximated: occlusion textures: 1 material");
+    assert_gltf_logged(f, 'W', "ignored: light ranges: 1 light");
 }
 
 static void what_a_file_does_not_use_is_not_mentioned(void **state)
