@@ -162,9 +162,9 @@ void ppmi_gltf_report_lights(const ppmi_gltf_reader *reader)
     const bool is_auto = reader->options->light_units == PPM_LIGHT_UNITS_AUTO;
     if (tally->punctual_lights == 0) return;
     ppmi_log(reader->context, PPM_LOG_INFO,
-             "%s: %zu punctual lights: %s (%s%s); --light-units gltf|blender|raw changes it",
-             reader->path, tally->punctual_lights, readings[ppmi_gltf_light_units(reader)],
-             is_auto ? "asset.generator is " : "",
+             "%s: %zu punctual light%s: %s (%s%s); --light-units gltf|blender|raw changes it",
+             reader->path, tally->punctual_lights, tally->punctual_lights == 1 ? "" : "s",
+             readings[ppmi_gltf_light_units(reader)], is_auto ? "asset.generator is " : "",
              !is_auto ? "asked for"
              : row    ? row->versions
                       : "not Blender's exporter");

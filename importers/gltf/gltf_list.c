@@ -278,6 +278,11 @@ static void list_scene(const ppmi_gltf_reader *r, ppmi_catalog *catalog, const i
 
 /* ---- meshes and materials -------------------------------------------------------------------- */
 
+static const char *ending(size_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 static size_t element_count(const ppmi_gltf_reader *r, const ppmi_gltf_primitive *primitive)
 {
     int32_t accessor = primitive->indices;
@@ -312,11 +317,13 @@ static void describe_mesh(const ppmi_gltf_reader *r, const ppmi_gltf_mesh *mesh,
             ++lines;
         }
     }
-    if (triangles > 0 || points + lines == 0) append(phrase, "%zu triangles", triangles);
-    if (points > 0) append(phrase, "%s%zu points", phrase[0] ? ", " : "", points);
-    if (lines > 0) append(phrase, "%s%zu sets of lines", phrase[0] ? ", " : "", lines);
-    append(phrase, ", %u primitive%s%s", mesh->primitive_count,
-           mesh->primitive_count == 1 ? "" : "s", has_targets ? ", morph targets" : "");
+    if (triangles > 0 || points + lines == 0)
+        append(phrase, "%zu triangle%s", triangles, ending(triangles));
+    if (points > 0) append(phrase, "%s%zu point%s", phrase[0] ? ", " : "", points, ending(points));
+    if (lines > 0)
+        append(phrase, "%s%zu set%s of lines", phrase[0] ? ", " : "", lines, ending(lines));
+    append(phrase, ", %u primitive%s%s", mesh->primitive_count, ending(mesh->primitive_count),
+           has_targets ? ", morph targets" : "");
 }
 
 static void list_meshes(const ppmi_gltf_reader *r, ppmi_catalog *catalog)

@@ -7,6 +7,9 @@
 /* A stack of this many sheets with alpha ends a ray: it would be black anyway. */
 enum { MAX_SURFACES_PASSED = 256 };
 
+/* Hits at one place that are looked at. */
+enum { MAX_COINCIDENT = 16 };
+
 void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
                      const ppmi_lights *lights, const ppmi_albedo_table *albedo,
                      const ppmi_spectrum *spectrum, const ppmi_contacts *contacts)
@@ -41,19 +44,74 @@ static bool trace(ppmi_walker *walker, const ppmi_ray *ray, ppmi_vertex *vertex)
     return true;
 }
 
+/* Whether it is the back of a single-sided surface, which the camera does not see. */
+static bool is_unseen_back(const ppmi_surface *surface, ppmi_vec3 direction)
+{
+    const ppmi_material *material = surface->material;
+    return !material->desc.double_sided && !material->is_solid_glass &&
+           vec3_dot(direction, surface->ng) > 0.0f;
+}
+
 /* Whether the ray goes on as if the surface was not there. */
 static bool passes_through(ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_vec3 direction,
                            ppmi_ray_kind kind)
 {
     const ppmi_material *material = vertex->surface.material;
-    if (kind == PPMI_RAY_CAMERA && !material->desc.double_sided && !material->is_solid_glass &&
-        vec3_dot(direction, vertex->surface.ng) > 0.0f) {
-        return true;
-    }
+    if (kind == PPMI_RAY_CAMERA && is_unseen_back(&vertex->surface, direction)) return true;
     if (!material->has_alpha) return false;
     const float opacity = ppmi_surface_opacity(walker->world->scene, &vertex->surface);
     if (opacity >= 1.0f) return false;
     return opacity <= 0.0f || ppmi_rng_float(&walker->rng) >= opacity;
+}
+
+static bool is_among(const ppmi_hit *hit, const ppmi_hit *hits, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (hit->instance == hits[i].instance && hit->primitive == hits[i].primitive &&
+            hit->triangle == hits[i].triangle) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Moves the vertex from an unseen back to a front that lies on it, as where the inside and the
+ * outside of a shell are single-sided surfaces at the same place. Which of the two a ray is told of
+ * first is chance, and the next ray would begin beyond both. False where there is none. */
+static bool turn_to_front(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *vertex)
+{
+    const ppmi_world *world = walker->world;
+    const float cosine = ppmi_max(vec3_dot(direction, vertex->surface.ng), 0.05f);
+    const float depth = 3.0f * vertex->surface.error / cosine;
+    const float back = ppmi_min(depth, 0.9f * vertex->hit.t); /* not behind where the ray began */
+    const ppmi_ray probe = {.origin = vec3_mad(vertex->surface.position, direction, -back),
+                            .t_max = back + depth,
+                            .direction = direction,
+                            .time = walker->time};
+    ppmi_hit hits[MAX_COINCIDENT];
+    walker->rays++;
+    const uint32_t count = ppmi_accel_intersect_all(world->accel, &probe, hits, MAX_COINCIDENT);
+    for (uint32_t i = 0; i < count; i++) {
+        if (is_among(&hits[i], hits, i)) continue;
+        ppmi_vertex front = *vertex;
+        front.hit = hits[i];
+        front.hit.t = vertex->hit.t;
+        ppmi_surface_from_hit(world->scene, &front.hit, &front.surface);
+        if (front.surface.material->is_solid_glass) continue;
+        if (passes_through(walker, &front, direction, PPMI_RAY_CAMERA)) continue;
+        *vertex = front;
+        return true;
+    }
+    return false;
+}
+
+/* Whether the ray ends at the surface, or at one that lies on it. */
+static bool is_stopped(ppmi_walker *walker, ppmi_vec3 direction, ppmi_ray_kind kind,
+                       ppmi_vertex *vertex)
+{
+    if (!passes_through(walker, vertex, direction, kind)) return true;
+    return kind == PPMI_RAY_CAMERA && is_unseen_back(&vertex->surface, direction) &&
+           turn_to_front(walker, direction, vertex);
 }
 
 /* Puts the vertex into the medium, at t along the ray. */
@@ -188,7 +246,7 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
         vertex->distance += ray.t_max;
         if (!is_seen) {
             walker->interior = vertex->behind;
-        } else if (!passes_through(walker, vertex, ray.direction, kind)) {
+        } else if (is_stopped(walker, ray.direction, kind, vertex)) {
             if (vertex->surface.material->is_solid_glass) {
                 ppmi_solid_refract(walker, ray.direction, vertex);
             }

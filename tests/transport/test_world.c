@@ -105,6 +105,63 @@ static void only_camera_rays_see_through_backs(void **state)
     assert_near(ppmi_walk_visibility(&walker, from_behind, &walker.interior).x, 0.0, 0.0);
 }
 
+/* One sheet that faces the camera and one that faces away, in the very same place. */
+static void add_shell(float alpha)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.alpha_mode = alpha < 1.0f ? PPM_ALPHA_BLEND : PPM_ALPHA_OPAQUE;
+    desc.base_color[3] = alpha;
+    desc.double_sided = 0;
+    const uint32_t material = material_add(test.scene, &desc);
+    const ppmi_vec3 corner = vec3(-1.1f, -0.9f, -3.3f), a = vec3(2.3f, 0.2f, 1.1f),
+                    b = vec3(-0.1f, 2.1f, 0.7f);
+    add_quad(test.scene, material, corner, b, a); /* faces away */
+    add_quad(test.scene, material, corner, a, b);
+}
+
+/* How many of count camera rays through the shell end at it; all that do see its front. */
+static double count_stopped_by_shell(uint32_t count)
+{
+    double stopped = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        ppmi_walker walker = walker_of(i);
+        const float u = ppmi_rng_float(&walker.rng), v = ppmi_rng_float(&walker.rng);
+        ppmi_ray ray = {.origin = {0.0f, 0.0f, 1.0f}, .t_max = INFINITY};
+        ray.direction = vec3_normalize(vec3(0.4f * u - 0.2f, 0.4f * v - 0.2f, -1.0f));
+        ppmi_vertex vertex;
+        if (ppmi_walk(&walker, ray, PPMI_RAY_CAMERA, &vertex) == PPMI_ESCAPED) continue;
+        assert_true(vec3_dot(vertex.surface.ng, ray.direction) < 0.0f);
+        const ppmi_vec3 there = vec3_mad(ray.origin, ray.direction, vertex.distance);
+        assert_near(vec3_length(vec3_sub(there, vertex.surface.position)), 0.0, 1e-5);
+        stopped += 1.0;
+    }
+    return stopped;
+}
+
+static void the_camera_sees_the_front_that_lies_on_a_back(void **state)
+{
+    (void)state;
+    add_shell(1.0f);
+    world_open(&world, &test);
+    assert_near(count_stopped_by_shell(2000), 2000.0, 0.0);
+}
+
+static void a_front_that_lies_on_a_back_stops_as_often_as_it_is_opaque(void **state)
+{
+    (void)state;
+    const uint32_t count = TEST_EFFORT(20000);
+    double observed[2];
+    const double expected[2] = {0.3 * count, 0.7 * count};
+    add_shell(0.3f);
+    world_open(&world, &test);
+    observed[0] = count_stopped_by_shell(count);
+    observed[1] = count - observed[0];
+    test_family family = {0};
+    family_add(&family, p_counts(observed, expected, 2), "stopped");
+    family_check(&family);
+}
+
 static void a_solid_attenuates_on_the_way_out_only(void **state)
 {
     (void)state;
@@ -151,6 +208,8 @@ int main(void)
         WITH_SCENE(visibility_is_the_product_of_what_veils_leave),
         WITH_SCENE(paths_stop_at_a_veil_as_often_as_it_is_opaque),
         WITH_SCENE(only_camera_rays_see_through_backs),
+        WITH_SCENE(the_camera_sees_the_front_that_lies_on_a_back),
+        WITH_SCENE(a_front_that_lies_on_a_back_stops_as_often_as_it_is_opaque),
         WITH_SCENE(a_solid_attenuates_on_the_way_out_only),
         WITH_SCENE(a_walker_draws_the_same_numbers_again),
     };
