@@ -216,8 +216,8 @@ static void sets_that_are_not_used_are_told(void **state)
                               "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}",
                               "{'buffer':0,'byteLength':36}", data, sizeof data),
         PPM_STATUS_OK);
-    assert_gltf_logged(f, 'W', "ignored: COLOR_1 and further: 1 primitives");
-    assert_gltf_logged(f, 'W', "ignored: TEXCOORD_8 and further: 1 primitives");
+    assert_gltf_logged(f, 'W', "ignored: COLOR_1 and further: 1 primitive:");
+    assert_gltf_logged(f, 'W', "ignored: TEXCOORD_8 and further: 1 primitive:");
     assert_non_null(first(f)->colors);
 }
 
