@@ -30,15 +30,6 @@ static void free_geometry(ppm_context *context, ppmi_gltf_geometry *g)
     ppmi_free(context, g->sources);
 }
 
-static int32_t find_attribute(const ppmi_gltf_primitive *primitive, const char *name)
-{
-    for (uint32_t i = 0; i < primitive->attribute_count; ++i) {
-        if (strcmp(primitive->attributes[i].name, name) == 0)
-            return primitive->attributes[i].accessor;
-    }
-    return -1;
-}
-
 /* An attribute that may be absent; it must have as many elements as POSITION. */
 static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                  const char *name, const ppmi_gltf_format *format,
@@ -46,7 +37,8 @@ static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primi
 {
     char inner[PPMI_GLTF_PLACE];
     size_t count;
-    const int32_t accessor = find_attribute(primitive, name);
+    const int32_t accessor =
+        ppmi_gltf_find_attribute(primitive->attributes, primitive->attribute_count, name);
     if (accessor < 0) return PPM_STATUS_OK;
     ppmi_gltf_place(inner, "%s.attributes.%s", place, name);
     const ppm_status status = ppmi_gltf_read_floats(reader, accessor, inner, format, out, &count);
@@ -160,7 +152,8 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
                                  const char *place, ppmi_gltf_geometry *g)
 {
     char inner[PPMI_GLTF_PLACE];
-    const int32_t position = find_attribute(primitive, "POSITION");
+    const int32_t position =
+        ppmi_gltf_find_attribute(primitive->attributes, primitive->attribute_count, "POSITION");
     if (position < 0) {
         reader->tally.no_positions++;
         return PPM_STATUS_OK;

@@ -107,3 +107,12 @@ const char *ppmi_gltf_printable(const char *text, size_t length, char *buffer, s
     }
     return buffer;
 }
+
+int32_t ppmi_gltf_find_attribute(const ppmi_gltf_attribute *attributes, uint32_t count,
+                                 const char *name)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        if (strcmp(attributes[i].name, name) == 0) return attributes[i].accessor;
+    }
+    return -1;
+}

@@ -126,6 +126,10 @@ bool ppmi_gltf_is_usable(const ppmi_gltf_reader *reader, int list, int32_t index
 ppm_status ppmi_gltf_require(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
 bool ppmi_gltf_accept(ppmi_gltf_reader *reader, int list, int32_t index, const char *place);
 
+/* The accessor of an attribute, or -1. */
+int32_t ppmi_gltf_find_attribute(const ppmi_gltf_attribute *attributes, uint32_t count,
+                                 const char *name);
+
 /* Writes a JSON path for messages; one that is too long is cut. */
 void ppmi_gltf_place(char place[PPMI_GLTF_PLACE], const char *format, ...) PPMI_PRINTF(2, 3);
 

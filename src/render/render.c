@@ -386,7 +386,7 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
     ppmi_vec3 low, high;
     if (!ppmi_scene_bounds(scene, &low, &high)) {
         return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
-                         "there is nothing to render: the scene has no triangles");
+                         "there is nothing to render: the scene has no triangles, points or lines");
     }
     ppm_status status = complete_scene(scene, options);
     if (status != PPM_STATUS_OK) return status;
