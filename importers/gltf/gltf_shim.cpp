@@ -1,5 +1,5 @@
-// The only file that sees tinygltf. It reads the checked text (gltf_check.c) and copies what the
-// importer uses into plain structs.
+// With gltf_shim_material.cpp and gltf_shim_light.cpp the only file that sees tinygltf. It reads
+// the checked text (gltf_check.c) and copies what the importer uses into plain structs.
 //
 // tinygltf gets neither buffers nor images: it would stop at the first one that is broken, whether
 // used or not, and copies them once more. So it opens no file, and Debian's shared library serves
@@ -7,7 +7,6 @@
 #include "gltf/gltf_shim.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <exception>
 #include <map>
@@ -16,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include <tiny_gltf.h>
+#include "gltf/gltf_shim_parts.hpp"
 
 namespace
 {
-using tinygltf::Value;
+using namespace ppmi_gltf;
 
 // tinygltf's model, whose strings the C structs point into, and those structs.
 struct Document : ppmi_gltf_document {
@@ -55,229 +54,6 @@ struct Document : ppmi_gltf_document {
     std::deque<std::vector<ppmi_gltf_animation_sampler>> sampler_lists;
     std::deque<std::string> strings;
 };
-
-// ---- extension values ---------------------------------------------------------------------------
-
-// The member of an object; a null value for anything else.
-const Value &member(const Value &object, const char *key)
-{
-    static const Value null_value;
-    return object.IsObject() ? object.Get(std::string(key)) : null_value;
-}
-
-const Value &extension(const tinygltf::ExtensionMap &map, const char *name)
-{
-    static const Value null_value;
-    const auto it = map.find(name);
-    return it == map.end() ? null_value : it->second;
-}
-
-double number_or(const Value &object, const char *key, double otherwise)
-{
-    const Value &value = member(object, key);
-    return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
-}
-
-// A size in bytes, up to 2^53; SIZE_MAX for a number that is none.
-size_t size_or(const Value &object, const char *key, size_t otherwise)
-{
-    const Value &value = member(object, key);
-    if (!value.IsNumber()) return otherwise;
-    const double number = value.IsInt() ? value.GetNumberAsInt() : value.GetNumberAsDouble();
-    const bool is_size =
-        number >= 0.0 && number <= 9007199254740992.0 && number == std::floor(number);
-    return is_size ? static_cast<size_t>(number) : SIZE_MAX;
-}
-
-int32_t index_or(const Value &object, const char *key, int32_t otherwise)
-{
-    const Value &value = member(object, key);
-    return value.IsInt() ? value.GetNumberAsInt() : otherwise;
-}
-
-void numbers_or(const Value &object, const char *key, double *out, int count, double otherwise)
-{
-    const Value &value = member(object, key);
-    const bool is_given = value.IsArray() && value.ArrayLen() == static_cast<size_t>(count);
-    for (int i = 0; i < count; ++i) {
-        out[i] = is_given && value.Get(i).IsNumber() ? value.Get(i).GetNumberAsDouble() : otherwise;
-    }
-}
-
-void copy_numbers(const std::vector<double> &from, double *out, size_t count, double otherwise)
-{
-    for (size_t i = 0; i < count; ++i) {
-        out[i] = from.size() == count ? from[i] : otherwise;
-    }
-}
-
-// The text of a string that lives on in the model; "" for anything else.
-const char *text_or_empty(const Value &object, const char *key)
-{
-    const Value &value = member(object, key);
-    return value.IsString() ? value.Get<std::string>().c_str() : "";
-}
-
-// ---- textures and materials ---------------------------------------------------------------------
-
-ppmi_gltf_texture_info texture_info(int index, int uv_set, const Value &transform)
-{
-    ppmi_gltf_texture_info info = {};
-    info.texture = index;
-    info.uv_set = index_or(transform, "texCoord", uv_set);
-    info.scale = 1.0;
-    info.has_transform = transform.IsObject();
-    numbers_or(transform, "offset", info.offset, 2, 0.0);
-    info.rotation_rad = number_or(transform, "rotation", 0.0);
-    numbers_or(transform, "scale", info.uv_scale, 2, 1.0);
-    return info;
-}
-
-template <typename Info> ppmi_gltf_texture_info core_texture(const Info &info)
-{
-    return texture_info(info.index, info.texCoord,
-                        extension(info.extensions, "KHR_texture_transform"));
-}
-
-ppmi_gltf_texture_info extension_texture(const Value &object, const char *key)
-{
-    const Value &info = member(object, key);
-    ppmi_gltf_texture_info out =
-        texture_info(index_or(info, "index", -1), index_or(info, "texCoord", 0),
-                     member(member(info, "extensions"), "KHR_texture_transform"));
-    out.scale = number_or(info, "scale", 1.0);
-    return out;
-}
-
-void copy_clearcoat_and_sheen(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
-{
-    const Value &coat = extension(map, "KHR_materials_clearcoat");
-    out->clearcoat = number_or(coat, "clearcoatFactor", 0.0);
-    out->clearcoat_texture = extension_texture(coat, "clearcoatTexture");
-    out->clearcoat_roughness = number_or(coat, "clearcoatRoughnessFactor", 0.0);
-    out->clearcoat_roughness_texture = extension_texture(coat, "clearcoatRoughnessTexture");
-    out->clearcoat_normal_texture = extension_texture(coat, "clearcoatNormalTexture");
-
-    const Value &sheen = extension(map, "KHR_materials_sheen");
-    numbers_or(sheen, "sheenColorFactor", out->sheen_color, 3, 0.0);
-    out->sheen_color_texture = extension_texture(sheen, "sheenColorTexture");
-    out->sheen_roughness = number_or(sheen, "sheenRoughnessFactor", 0.0);
-    out->sheen_roughness_texture = extension_texture(sheen, "sheenRoughnessTexture");
-}
-
-// Of retroreflection both the draft of Khronos and the extension that it grew out of.
-void copy_highlights(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
-{
-    const Value &film = extension(map, "KHR_materials_iridescence");
-    out->iridescence = number_or(film, "iridescenceFactor", 0.0);
-    out->iridescence_texture = extension_texture(film, "iridescenceTexture");
-    out->iridescence_ior = number_or(film, "iridescenceIor", 1.3);
-    out->iridescence_min_nm = number_or(film, "iridescenceThicknessMinimum", 100.0);
-    out->iridescence_max_nm = number_or(film, "iridescenceThicknessMaximum", 400.0);
-    out->iridescence_thickness_texture = extension_texture(film, "iridescenceThicknessTexture");
-
-    const Value &anisotropy = extension(map, "KHR_materials_anisotropy");
-    out->anisotropy = number_or(anisotropy, "anisotropyStrength", 0.0);
-    out->anisotropy_rotation_rad = number_or(anisotropy, "anisotropyRotation", 0.0);
-    out->anisotropy_texture = extension_texture(anisotropy, "anisotropyTexture");
-
-    const Value &draft = extension(map, "KHR_materials_retroreflection");
-    const Value &retro = draft.IsObject() ? draft : extension(map, "EXT_materials_retroreflection");
-    out->retroreflection = number_or(retro, "retroreflectionFactor", 0.0);
-    out->retroreflection_texture = extension_texture(retro, "retroreflectionTexture");
-}
-
-// The colour of KHR_materials_volume_scatter has had two names so far.
-void copy_scattering(const tinygltf::ExtensionMap &map, ppmi_gltf_scattering *out)
-{
-    const Value &diffuse = extension(map, "KHR_materials_diffuse_transmission");
-    out->diffuse_transmission = number_or(diffuse, "diffuseTransmissionFactor", 0.0);
-    out->diffuse_transmission_texture = extension_texture(diffuse, "diffuseTransmissionTexture");
-    numbers_or(diffuse, "diffuseTransmissionColorFactor", out->diffuse_transmission_color, 3, 1.0);
-    out->diffuse_transmission_color_texture =
-        extension_texture(diffuse, "diffuseTransmissionColorTexture");
-
-    const Value &scatter = extension(map, "KHR_materials_volume_scatter");
-    const bool is_factor = member(scatter, "multiscatterColorFactor").IsArray();
-    numbers_or(scatter, is_factor ? "multiscatterColorFactor" : "multiscatterColor",
-               out->multiscatter_color, 3, 0.0);
-    out->multiscatter_color_texture = extension_texture(scatter, "multiscatterColorTexture");
-    out->scatter_anisotropy = number_or(scatter, "scatterAnisotropy", 0.0);
-}
-
-void copy_specular_glossiness(const tinygltf::ExtensionMap &map, ppmi_gltf_specular_glossiness *out)
-{
-    const Value &from = extension(map, "KHR_materials_pbrSpecularGlossiness");
-    out->is_given = from.IsObject();
-    numbers_or(from, "diffuseFactor", out->diffuse, 4, 1.0);
-    out->diffuse_texture = extension_texture(from, "diffuseTexture");
-    numbers_or(from, "specularFactor", out->specular, 3, 1.0);
-    out->glossiness = number_or(from, "glossinessFactor", 1.0);
-    out->specular_glossiness_texture = extension_texture(from, "specularGlossinessTexture");
-}
-
-// KHR_materials_*; the defaults are the extensions'.
-void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material *out)
-{
-    const auto &map = from.extensions;
-    out->is_unlit = extension(map, "KHR_materials_unlit").IsObject();
-    out->emissive_strength =
-        number_or(extension(map, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
-    out->ior = number_or(extension(map, "KHR_materials_ior"), "ior", 1.5);
-
-    const Value &specular = extension(map, "KHR_materials_specular");
-    out->specular = number_or(specular, "specularFactor", 1.0);
-    out->specular_texture = extension_texture(specular, "specularTexture");
-    numbers_or(specular, "specularColorFactor", out->specular_color, 3, 1.0);
-    out->specular_color_texture = extension_texture(specular, "specularColorTexture");
-
-    const Value &transmission = extension(map, "KHR_materials_transmission");
-    out->transmission = number_or(transmission, "transmissionFactor", 0.0);
-    out->transmission_texture = extension_texture(transmission, "transmissionTexture");
-
-    const Value &volume = extension(map, "KHR_materials_volume");
-    out->thickness = number_or(volume, "thicknessFactor", 0.0);
-    out->attenuation_distance = number_or(volume, "attenuationDistance", 0.0);
-    numbers_or(volume, "attenuationColor", out->attenuation_color, 3, 1.0);
-    out->dispersion = number_or(extension(map, "KHR_materials_dispersion"), "dispersion", 0.0);
-    copy_clearcoat_and_sheen(map, &out->layers);
-    copy_highlights(map, &out->layers);
-    copy_scattering(map, &out->scattering);
-    copy_specular_glossiness(map, &out->specular_glossiness);
-}
-
-ppmi_gltf_material copy_material(const tinygltf::Material &from)
-{
-    ppmi_gltf_material out = {};
-    const tinygltf::PbrMetallicRoughness &pbr = from.pbrMetallicRoughness;
-    out.name = from.name.c_str();
-    copy_numbers(pbr.baseColorFactor, out.base_color, 4, 1.0);
-    out.metallic = pbr.metallicFactor;
-    out.roughness = pbr.roughnessFactor;
-    copy_numbers(from.emissiveFactor, out.emissive, 3, 0.0);
-    out.base_color_texture = core_texture(pbr.baseColorTexture);
-    out.metallic_roughness_texture = core_texture(pbr.metallicRoughnessTexture);
-    out.normal_texture = core_texture(from.normalTexture);
-    out.normal_texture.scale = from.normalTexture.scale;
-    out.emissive_texture = core_texture(from.emissiveTexture);
-    out.alpha_mode = from.alphaMode.c_str();
-    out.alpha_cutoff = from.alphaCutoff;
-    out.double_sided = from.doubleSided;
-    out.has_occlusion = from.occlusionTexture.index >= 0;
-    copy_material_extensions(from, &out);
-    out.priority = number_or(from.extras, "ppm_priority", 0.0);
-    return out;
-}
-
-ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
-{
-    return {from.source,
-            index_or(extension(from.extensions, "EXT_texture_webp"), "source", -1),
-            index_or(extension(from.extensions, "KHR_texture_basisu"), "source", -1),
-            index_or(extension(from.extensions, "EXT_texture_avif"), "source", -1),
-            index_or(extension(from.extensions, "MSFT_texture_dds"), "source", -1),
-            from.sampler};
-}
 
 // ---- geometry -----------------------------------------------------------------------------------
 
@@ -480,43 +256,6 @@ void copy_instancing(Document *document, const Value &from, ppmi_gltf_node *out)
                               &out->instance_attribute_count);
 }
 
-// extras of a light or a node that carries one. Blender writes a checkbox as 0 or 1, or as a
-// boolean.
-ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
-{
-    const Value &visible = member(extras, "ppm_visible");
-    ppmi_gltf_lamp_extras out = {number_or(extras, "ppm_radius", -1.0),
-                                 number_or(extras, "ppm_angle", -1.0), -1,
-                                 number_or(extras, "ppm_blend", -1.0)};
-    if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
-    if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
-    return out;
-}
-
-ppmi_gltf_area_extras copy_area_extras(const Value &area)
-{
-    ppmi_gltf_area_extras out = {};
-    out.is_given = area.IsObject();
-    out.shape = text_or_empty(area, "shape");
-    numbers_or(area, "size", out.size, 2, number_or(area, "size", 0.0));
-    out.radiance = number_or(area, "radiance", -1.0);
-    out.power_w = number_or(area, "power_w", -1.0);
-    numbers_or(area, "color", out.color, 3, 1.0);
-    return out;
-}
-
-void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
-{
-    const Value &ies = extension(from.extensions, "EXT_lights_ies");
-    out->light = index_or(extension(from.extensions, "KHR_lights_punctual"), "light", -1);
-    out->area_light = index_or(extension(from.extensions, "EXT_lights_area"), "light", -1);
-    out->profile = index_or(ies, "light", -1);
-    out->profile_factor = number_or(ies, "multiplier", 1.0);
-    numbers_or(ies, "color", out->profile_color, 3, 1.0);
-    out->lamp = copy_lamp_extras(from.extras);
-    out->area = copy_area_extras(member(from.extras, "ppm_area"));
-}
-
 ppmi_gltf_node copy_node(Document *document, const tinygltf::Node &from)
 {
     ppmi_gltf_node out = {};
@@ -608,82 +347,6 @@ void copy_animations(Document *document)
     }
     document->animations = document->animation_items.data();
     document->animation_count = count;
-}
-
-ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
-{
-    ppmi_gltf_camera out = {from.name.c_str(),
-                            from.type == "orthographic",
-                            from.perspective.yfov,
-                            from.perspective.aspectRatio,
-                            from.orthographic.xmag,
-                            from.orthographic.ymag,
-                            {0.0, 0.0}};
-    numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
-    return out;
-}
-
-ppmi_gltf_light copy_light(const tinygltf::Light &from)
-{
-    ppmi_gltf_light out = {};
-    out.name = from.name.c_str();
-    out.kind = from.type == "spot"          ? PPMI_GLTF_LIGHT_SPOT
-               : from.type == "directional" ? PPMI_GLTF_LIGHT_DIRECTIONAL
-                                            : PPMI_GLTF_LIGHT_POINT;
-    copy_numbers(from.color, out.color, 3, 1.0);
-    out.intensity = from.intensity;
-    out.inner_cone_rad = from.spot.innerConeAngle;
-    out.outer_cone_rad = from.spot.outerConeAngle;
-    out.range_m = from.range;
-    out.lamp = copy_lamp_extras(from.extras);
-    return out;
-}
-
-ppmi_gltf_area_light copy_area_light(const Value &from)
-{
-    ppmi_gltf_area_light out = {};
-    out.name = text_or_empty(from, "name");
-    out.is_disk = std::string(text_or_empty(from, "type")) == "disk";
-    numbers_or(from, "color", out.color, 3, 1.0);
-    out.intensity = number_or(from, "intensity", 1000.0);
-    out.size = number_or(from, "size", 1.0);
-    out.aspect = number_or(member(from, "rect"), "aspect", 1.0);
-    out.lamp = copy_lamp_extras(member(from, "extras"));
-    return out;
-}
-
-ppmi_gltf_light_profile copy_profile(const Value &from)
-{
-    const Value &uri = member(from, "uri");
-    return {text_or_empty(from, "name"), text_or_empty(from, "uri"),
-            uri.IsString() ? uri.Get<std::string>().size() : 0, index_or(from, "bufferView", -1)};
-}
-
-ppmi_gltf_image_light copy_image_light(const Value &from)
-{
-    ppmi_gltf_image_light out = {};
-    out.name = text_or_empty(from, "name");
-    out.intensity = number_or(from, "intensity", 1.0);
-    out.rotation[3] = 1.0;
-    if (member(from, "rotation").IsArray()) numbers_or(from, "rotation", out.rotation, 4, 0.0);
-    const Value &levels = member(from, "specularImages");
-    const Value none, &faces = levels.IsArray() && levels.ArrayLen() > 0 ? levels.Get(0) : none;
-    out.has_faces = faces.IsArray() && faces.ArrayLen() == 6;
-    for (int i = 0; i < 6; ++i) {
-        const bool is_index = out.has_faces && faces.Get(i).IsInt();
-        out.faces[i] = is_index ? faces.Get(i).GetNumberAsInt() : -1;
-    }
-    const Value &rows = member(from, "irradianceCoefficients");
-    out.has_irradiance = rows.IsArray() && rows.ArrayLen() == 9;
-    for (int i = 0; i < 9 && out.has_irradiance; ++i) {
-        const Value &row = rows.Get(i);
-        out.has_irradiance = row.IsArray() && row.ArrayLen() == 3;
-        for (int k = 0; k < 3 && out.has_irradiance; ++k) {
-            out.has_irradiance = row.Get(k).IsNumber();
-            out.irradiance[i][k] = out.has_irradiance ? row.Get(k).GetNumberAsDouble() : 0.0;
-        }
-    }
-    return out;
 }
 
 // The elements of a root extension's list "lights".

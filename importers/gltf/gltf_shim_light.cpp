@@ -1,0 +1,121 @@
+// Cameras and lights, of all extensions and extras: from tinygltf to plain structs.
+#include "gltf/gltf_shim_parts.hpp"
+
+namespace ppmi_gltf
+{
+namespace
+{
+// extras of a light or a node that carries one. Blender writes a checkbox as 0 or 1, or as a
+// boolean.
+ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
+{
+    const Value &visible = member(extras, "ppm_visible");
+    ppmi_gltf_lamp_extras out = {number_or(extras, "ppm_radius", -1.0),
+                                 number_or(extras, "ppm_angle", -1.0), -1,
+                                 number_or(extras, "ppm_blend", -1.0)};
+    if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
+    if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
+    return out;
+}
+
+ppmi_gltf_area_extras copy_area_extras(const Value &area)
+{
+    ppmi_gltf_area_extras out = {};
+    out.is_given = area.IsObject();
+    out.shape = text_or_empty(area, "shape");
+    numbers_or(area, "size", out.size, 2, number_or(area, "size", 0.0));
+    out.radiance = number_or(area, "radiance", -1.0);
+    out.power_w = number_or(area, "power_w", -1.0);
+    numbers_or(area, "color", out.color, 3, 1.0);
+    return out;
+}
+} // namespace
+
+void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
+{
+    const Value &ies = extension(from.extensions, "EXT_lights_ies");
+    out->light = index_or(extension(from.extensions, "KHR_lights_punctual"), "light", -1);
+    out->area_light = index_or(extension(from.extensions, "EXT_lights_area"), "light", -1);
+    out->profile = index_or(ies, "light", -1);
+    out->profile_factor = number_or(ies, "multiplier", 1.0);
+    numbers_or(ies, "color", out->profile_color, 3, 1.0);
+    out->lamp = copy_lamp_extras(from.extras);
+    out->area = copy_area_extras(member(from.extras, "ppm_area"));
+}
+
+ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
+{
+    ppmi_gltf_camera out = {from.name.c_str(),
+                            from.type == "orthographic",
+                            from.perspective.yfov,
+                            from.perspective.aspectRatio,
+                            from.orthographic.xmag,
+                            from.orthographic.ymag,
+                            {0.0, 0.0}};
+    numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
+    return out;
+}
+
+ppmi_gltf_light copy_light(const tinygltf::Light &from)
+{
+    ppmi_gltf_light out = {};
+    out.name = from.name.c_str();
+    out.kind = from.type == "spot"          ? PPMI_GLTF_LIGHT_SPOT
+               : from.type == "directional" ? PPMI_GLTF_LIGHT_DIRECTIONAL
+                                            : PPMI_GLTF_LIGHT_POINT;
+    copy_numbers(from.color, out.color, 3, 1.0);
+    out.intensity = from.intensity;
+    out.inner_cone_rad = from.spot.innerConeAngle;
+    out.outer_cone_rad = from.spot.outerConeAngle;
+    out.range_m = from.range;
+    out.lamp = copy_lamp_extras(from.extras);
+    return out;
+}
+
+ppmi_gltf_area_light copy_area_light(const Value &from)
+{
+    ppmi_gltf_area_light out = {};
+    out.name = text_or_empty(from, "name");
+    out.is_disk = std::string(text_or_empty(from, "type")) == "disk";
+    numbers_or(from, "color", out.color, 3, 1.0);
+    out.intensity = number_or(from, "intensity", 1000.0);
+    out.size = number_or(from, "size", 1.0);
+    out.aspect = number_or(member(from, "rect"), "aspect", 1.0);
+    out.lamp = copy_lamp_extras(member(from, "extras"));
+    return out;
+}
+
+ppmi_gltf_light_profile copy_profile(const Value &from)
+{
+    const Value &uri = member(from, "uri");
+    return {text_or_empty(from, "name"), text_or_empty(from, "uri"),
+            uri.IsString() ? uri.Get<std::string>().size() : 0, index_or(from, "bufferView", -1)};
+}
+
+ppmi_gltf_image_light copy_image_light(const Value &from)
+{
+    ppmi_gltf_image_light out = {};
+    out.name = text_or_empty(from, "name");
+    out.intensity = number_or(from, "intensity", 1.0);
+    out.rotation[3] = 1.0;
+    if (member(from, "rotation").IsArray()) numbers_or(from, "rotation", out.rotation, 4, 0.0);
+    const Value &levels = member(from, "specularImages");
+    const Value none, &faces = levels.IsArray() && levels.ArrayLen() > 0 ? levels.Get(0) : none;
+    out.has_faces = faces.IsArray() && faces.ArrayLen() == 6;
+    for (int i = 0; i < 6; ++i) {
+        const bool is_index = out.has_faces && faces.Get(i).IsInt();
+        out.faces[i] = is_index ? faces.Get(i).GetNumberAsInt() : -1;
+    }
+    const Value &rows = member(from, "irradianceCoefficients");
+    out.has_irradiance = rows.IsArray() && rows.ArrayLen() == 9;
+    for (int i = 0; i < 9 && out.has_irradiance; ++i) {
+        const Value &row = rows.Get(i);
+        out.has_irradiance = row.IsArray() && row.ArrayLen() == 3;
+        for (int k = 0; k < 3 && out.has_irradiance; ++k) {
+            out.has_irradiance = row.Get(k).IsNumber();
+            out.irradiance[i][k] = out.has_irradiance ? row.Get(k).GetNumberAsDouble() : 0.0;
+        }
+    }
+    return out;
+}
+} // namespace ppmi_gltf
