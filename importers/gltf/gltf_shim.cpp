@@ -1,5 +1,6 @@
-// With gltf_shim_material.cpp and gltf_shim_light.cpp the only file that sees tinygltf. It reads
-// the checked text (gltf_check.c) and copies what the importer uses into plain structs.
+// The document: with gltf_shim_material.cpp and gltf_shim_light.cpp what sees tinygltf, and nothing
+// else does. They read the checked text (gltf_check.c) and copy what the importer uses into plain
+// structs.
 //
 // tinygltf gets neither buffers nor images: it would stop at the first one that is broken, whether
 // used or not, and copies them once more. So it opens no file, and Debian's shared library serves
