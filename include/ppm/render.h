@@ -53,6 +53,54 @@ enum {
     PPM_PIXEL_FILTER_BLACKMAN_HARRIS = 3 /* default 3, which Blender's Cycles calls 1.5 */
 };
 
+/* ---- layers ---------------------------------------------------------------------------------- */
+
+/* What a session can keep beside the picture, as bits PPM_LAYER_BIT(kind) of the option layers.
+ * docs/compositing.md says what each holds.
+ *
+ * The light layers DIFFUSE_DIRECT .. VOLUME part the picture: they add up to it, and so do the
+ * light groups among themselves. */
+enum {
+    PPM_LAYER_COMBINED = 0, /* the picture; always there */
+    PPM_LAYER_DIFFUSE_DIRECT = 1,
+    PPM_LAYER_DIFFUSE_INDIRECT = 2,
+    PPM_LAYER_GLOSSY_DIRECT = 3,
+    PPM_LAYER_GLOSSY_INDIRECT = 4,
+    PPM_LAYER_TRANSMISSION = 5,
+    PPM_LAYER_EMISSION = 6,     /* lamps and shining surfaces, seen straight */
+    PPM_LAYER_ENVIRONMENT = 7,  /* seen straight */
+    PPM_LAYER_CAUSTICS = 8,     /* light that met specular surfaces before its first diffuse one */
+    PPM_LAYER_VOLUME = 9,       /* light that fog or a cloudy solid scattered towards the eye */
+    PPM_LAYER_LIGHT_GROUP = 10, /* one layer for each group of lights */
+    PPM_LAYER_GROUP_CAUSTICS = 11, /* and the part of CAUSTICS that is its own */
+
+    PPM_LAYER_VARIANCE = 12,       /* of the picture's mean over the passes */
+    PPM_LAYER_PHOTON_DENSITY = 13, /* photons gathered by area, 1/m2; SPPM and PPM */
+    PPM_LAYER_RADIUS = 14,         /* of the gathering, metres; SPPM and PPM */
+
+    PPM_LAYER_ALBEDO = 15,
+    PPM_LAYER_NORMAL = 16,
+    PPM_LAYER_POSITION = 17, /* metres, world space */
+    PPM_LAYER_DEPTH = 18,    /* metres along the camera's axis */
+    PPM_LAYER_UV = 19,
+    PPM_LAYER_OBJECT_INDEX = 20,   /* ppm_instance_id */
+    PPM_LAYER_MATERIAL_INDEX = 21, /* ppm_material_id */
+    PPM_LAYER_MOTION = 22,         /* pixels */
+    PPM_LAYER_CRYPTO_OBJECT = 23,  /* Cryptomatte 1.2, ranked ids and coverage */
+    PPM_LAYER_CRYPTO_MATERIAL = 24,
+    PPM_LAYER_CRYPTO_ASSET = 25,
+    PPM_LAYER_KINDS = 26
+};
+#define PPM_LAYER_BIT(kind) (UINT64_C(1) << (kind))
+
+/* Which lights make a group. */
+enum {
+    PPM_LIGHT_GROUPS_DEFAULT = 0, /* GIVEN */
+    PPM_LIGHT_GROUPS_GIVEN = 1,   /* as the scene's light_group fields say; all other light is the
+                                     group "rest" */
+    PPM_LIGHT_GROUPS_NAMED = 2    /* every light without a given group is one of its own, by name */
+};
+
 /* 0 in any field means its default. */
 typedef struct ppm_render_options {
     uint32_t size;      /* sizeof(ppm_render_options) */
@@ -87,6 +135,15 @@ typedef struct ppm_render_options {
                                 excluded; all 0: the whole picture */
     int32_t pixel_filter;    /* PPM_PIXEL_FILTER_ */
     float pixel_filter_width; /* pixels, 0.001 .. 100; default: the filter's own */
+
+    uint64_t layers;            /* PPM_LAYER_BIT of each kind that is wanted beside the picture */
+    int32_t light_groups;       /* PPM_LIGHT_GROUPS_ */
+    uint32_t is_transparent;    /* non-zero: what the camera sees of the environment straight is
+                                   transparent; else alpha is 1 */
+    uint32_t normals_of_camera; /* non-zero: normals in the camera's space; else the world's */
+    uint32_t follows_specular;  /* non-zero: albedo and normal are of what is seen in mirrors and
+                                   through glass */
+    uint32_t cryptomatte_ranks; /* ids a pixel can hold, even, at most 32; default 6 */
 } ppm_render_options;
 
 /* The options in effect: defaults filled in for this scene. Returns INVALID_ARGUMENT for values
@@ -142,6 +199,29 @@ PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_sta
  * Not while another thread is in ppm_render_advance. Returns OK, INVALID_ARGUMENT, WRONG_STATE (no
  * finished pass). */
 PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
+
+/* A layer of the session: a picture of its own, of 1 to 4 channels. */
+typedef struct ppm_layer_info {
+    uint32_t size;                /* sizeof(ppm_layer_info), set by the caller */
+    int32_t kind;                 /* PPM_LAYER_ */
+    const char *name;             /* "caustics", "CryptoObject00"; of one light group
+                                     "light.NAME" and "caustics.NAME". Unique in the session */
+    uint32_t channel_count;       /* 1..4 */
+    const char *channel_names[4]; /* "R", "G", "B", "A"; "X", "Y", "Z"; "Z"; "U", "V" */
+    uint32_t is_exact;            /* non-zero: half floats would spoil it (ids, distances) */
+} ppm_layer_info;
+
+/* The layers of the session: combined first, then by kind. Strings are valid until
+ * ppm_render_destroy. */
+PPM_API uint32_t ppm_render_layer_count(const ppm_render *render);
+/* index counts from 0. Returns OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_render_get_layer(const ppm_render *render, uint32_t index,
+                                        ppm_layer_info *out_info);
+/* Copies a layer so far: channel_count * width * height floats as ppm_render_read_image does
+ * (value_count is their number). Not while another thread is in ppm_render_advance. Returns OK,
+ * INVALID_ARGUMENT, WRONG_STATE (no finished pass). */
+PPM_API ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float *values,
+                                         size_t value_count);
 
 #ifdef __cplusplus
 }

@@ -250,10 +250,13 @@ typedef struct ppm_instance_desc {
     uint32_t size;    /* sizeof(ppm_instance_desc) */
     const char *name; /* may be NULL */
     ppm_mesh_id mesh;
-    float transform[16];   /* mirrored ones (negative determinant) are fine */
-    uint32_t motion_steps; /* 0 and 1: at rest; up to PPM_MAX_MOTION_STEPS */
-    const float *motion;   /* 16 * motion_steps, in place of transform: at even times from the
-                              opening of the shutter to its closing; or NULL */
+    float transform[16];     /* mirrored ones (negative determinant) are fine */
+    uint32_t motion_steps;   /* 0 and 1: at rest; up to PPM_MAX_MOTION_STEPS */
+    const float *motion;     /* 16 * motion_steps, in place of transform: at even times from the
+                                opening of the shutter to its closing; or NULL */
+    const char *asset;       /* name of the thing that it is a part of (Cryptomatte's asset); NULL:
+                                its own name */
+    const char *light_group; /* of what its emissive surfaces shine; NULL or "": none is given */
 } ppm_instance_desc;
 
 /* Returns OK, INVALID_ARGUMENT (unknown mesh, a transform that is not finite), OUT_OF_MEMORY,
@@ -390,6 +393,7 @@ typedef struct ppm_light_desc {
     uint32_t is_hidden; /* non-zero: the camera does not see the light straight ahead, only mirrors
                            and glass do */
     ppm_light_profile_id profile; /* point, spot: times the intensity; 0: none */
+    const char *light_group;      /* NULL or "": none is given */
 } ppm_light_desc;
 
 PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
@@ -407,6 +411,7 @@ typedef struct ppm_environment_desc {
     float rotation_rad;    /* turns the image about +Y, counter-clockwise seen from above */
     uint32_t has_backdrop; /* non-zero: backdrop applies */
     float backdrop[3];     /* nit, linear Rec.709 */
+    const char *light_group; /* NULL or "": none is given */
 } ppm_environment_desc;
 
 /* Sets or replaces the environment. Without one it is black.

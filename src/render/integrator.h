@@ -6,6 +6,7 @@
 
 #include "camera/camera.h"
 #include "camera/filter.h"
+#include "light/light_groups.h"
 #include "ppm/render.h"
 #include "transport/world.h"
 
@@ -30,9 +31,10 @@ typedef struct ppmi_job {
     ppmi_camera_view view; /* of the whole picture */
     ppmi_pixel_filter filter;
     ppmi_film film;
-    ppmi_interior around_camera; /* solids that it stands in, */
-    bool around_camera_changes;  /* or that have to be looked for at each path's time */
-    bool pass_has_one_time;      /* see ppmi_time_of_pass */
+    ppmi_interior around_camera;     /* solids that it stands in, */
+    bool around_camera_changes;      /* or that have to be looked for at each path's time */
+    bool pass_has_one_time;          /* see ppmi_time_of_pass */
+    const ppmi_light_groups *groups; /* NULL: no layer asks for them */
     const atomic_bool *cancel;
 } ppmi_job;
 
@@ -46,6 +48,10 @@ typedef struct ppmi_integrator {
     ppm_status (*pass)(const ppmi_job *job, void *state, uint64_t pass, ppm_render_stats *stats);
     /* The film's picture after passes finished passes: RGBA, row 0 on top. */
     void (*resolve)(const ppmi_job *job, const void *state, uint64_t passes, float *rgba);
+    /* One of the layers that are the integrator's own (PPM_LAYER_DIFFUSE_DIRECT .. RADIUS), number
+     * counts groups; values as in ppm_render_read_layer. */
+    void (*read_layer)(const ppmi_job *job, const void *state, int32_t kind, uint32_t number,
+                       uint64_t passes, float *values);
 } ppmi_integrator;
 
 extern const ppmi_integrator ppmi_integrator_sppm;

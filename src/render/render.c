@@ -5,6 +5,7 @@
 
 #include "photon/eye.h"
 #include "render/integrator.h"
+#include "render/layer_list.h"
 #include "scene/mipmap.h"
 #include "transport/solid.h"
 
@@ -22,6 +23,7 @@ struct ppm_render {
     const ppmi_integrator *integrator;
     void *state;
     ppmi_job job;
+    ppmi_layer_list layers;
     ppm_render_stats stats;
     atomic_bool cancel;
 };
@@ -202,6 +204,10 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     if (resolved.schedule == PPM_SCHEDULE_DEFAULT) resolved.schedule = PPM_SCHEDULE_PROGRESSIVE;
     if (resolved.direct == PPM_DIRECT_DEFAULT) resolved.direct = PPM_DIRECT_SAMPLE;
     if (resolved.aim == PPM_AIM_DEFAULT) resolved.aim = PPM_AIM_LEARNT;
+    if (resolved.cryptomatte_ranks == 0) resolved.cryptomatte_ranks = 6;
+    if (resolved.light_groups == PPM_LIGHT_GROUPS_DEFAULT) {
+        resolved.light_groups = PPM_LIGHT_GROUPS_GIVEN;
+    }
     if (resolved.split_depth == 0) resolved.split_depth = 4;
     if (resolved.max_depth == 0) resolved.max_depth = 32;
     if (resolved.alpha == 0.0f) resolved.alpha = 2.0f / 3.0f;
@@ -361,6 +367,8 @@ static ppm_status start(ppm_render *render)
     render->stats.size = sizeof render->stats;
     render->stats.threads = render->options.threads;
     render->stats.seconds_build = omp_get_wtime() - begin;
+    status = ppmi_layer_list_init(&render->job, &render->layers);
+    if (status != PPM_STATUS_OK) return status;
     return render->integrator->create(&render->job, &render->state);
 }
 
@@ -421,6 +429,7 @@ void ppm_render_destroy(ppm_render *render)
 {
     if (!render) return;
     if (render->state) render->integrator->destroy(&render->job, render->state);
+    ppmi_layer_list_deinit(render->context, &render->layers);
     ppmi_contacts_destroy(render->context, render->contacts);
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);
@@ -493,4 +502,50 @@ const ppm_scene *ppmi_render_scene(const ppm_render *render)
 const char *ppmi_render_integrator_name(const ppm_render *render)
 {
     return render->integrator->name;
+}
+
+/* ---- layers ---------------------------------------------------------------------------------- */
+
+uint32_t ppm_render_layer_count(const ppm_render *render)
+{
+    return render ? render->layers.count : 0;
+}
+
+ppm_status ppm_render_get_layer(const ppm_render *render, uint32_t index, ppm_layer_info *out_info)
+{
+    if (!render || !out_info || out_info->size < sizeof *out_info ||
+        index >= render->layers.count) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    const ppmi_layer *layer = &render->layers.layers[index];
+    *out_info = (ppm_layer_info){.size = sizeof *out_info,
+                                 .kind = layer->kind,
+                                 .name = layer->name,
+                                 .channel_count = layer->channel_count,
+                                 .is_exact = layer->is_exact};
+    for (uint32_t i = 0; i < layer->channel_count; i++)
+        out_info->channel_names[i] = layer->channel_names[i];
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float *values,
+                                 size_t value_count)
+{
+    if (!render || !values || index >= render->layers.count) return PPM_STATUS_INVALID_ARGUMENT;
+    const ppmi_layer *layer = &render->layers.layers[index];
+    if (layer->kind == PPM_LAYER_COMBINED) {
+        return ppm_render_read_image(render, values, value_count);
+    }
+    const size_t needed = layer->channel_count * ppmi_film_pixel_count(&render->job.film);
+    if (value_count != needed) {
+        return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "layer '%s' has %zu floats, the buffer %zu", layer->name, needed,
+                         value_count);
+    }
+    if (render->stats.passes == 0) {
+        return ppmi_fail(render->context, PPM_STATUS_WRONG_STATE, "no pass is finished yet");
+    }
+    render->integrator->read_layer(&render->job, render->state, layer->kind, layer->number,
+                                   render->stats.passes, values);
+    return PPM_STATUS_OK;
 }

@@ -94,6 +94,8 @@ typedef struct ppmi_instance {
     uint32_t motion_steps;   /* 1: at rest */
     ppmi_transform *motion;  /* or NULL: at rest */
     ppmi_vec3 given_origin;  /* of to_world */
+    char *asset;             /* never NULL */
+    char *light_group;       /* NULL: none is given */
 } ppmi_instance;
 
 /* Whether rays can meet the instance. */
@@ -136,6 +138,7 @@ typedef struct ppmi_punctual {
     float half_width_m, half_height_m; /* rectangle, disk */
     bool is_hidden;                    /* from the camera */
     uint32_t profile;                  /* index + 1; 0: none */
+    char *light_group;                 /* NULL: none is given */
 } ppmi_punctual;
 
 /* As in ppm_light_profile_desc. */
@@ -155,6 +158,7 @@ typedef struct ppmi_environment {
     float rotation_rad;
     bool has_backdrop;
     ppmi_vec3 backdrop;
+    char *light_group; /* NULL: none is given */
 } ppmi_environment;
 
 /* What another folder keeps with the scene from session to session. */
