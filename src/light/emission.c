@@ -19,7 +19,7 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, floa
     const ppmi_vec3 direction = vec3_normalize(
         ppmi_frame_to_world(&frame, ppmi_sample_cosine_hemisphere(u_direction, u[3])));
     emission->ray = ppmi_surface_ray(&surface, direction);
-    const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, n);
+    const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, direction);
     emission->power = vec3_scale(radiance, PPMI_PI * area * (float)e->sides);
     return true;
 }

@@ -17,7 +17,8 @@ struct ppm_render {
     ppmi_accel *accel;
     ppmi_lights *lights;
     ppmi_albedo_table *albedo;
-    ppmi_lobe_table *lobes; /* NULL unless some material has layers */
+    ppmi_lobe_table *lobes;  /* NULL unless some material has layers */
+    ppmi_glass_table *glass; /* NULL unless some material is rough glass */
     ppmi_spectrum *spectrum;
     ppmi_contacts *contacts;
     const ppmi_integrator *integrator;
@@ -258,6 +259,31 @@ static bool has_layers(const ppm_scene *scene)
     return false;
 }
 
+/* A roughness of 0 stays 0 under a texture; glossiness does not. */
+static bool has_rough_glass(const ppm_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const ppm_material_desc *desc = &scene->materials[i].desc;
+        if (desc->transmission > 0.0f &&
+            (desc->roughness > 0.0f || desc->roughness_is_glossiness)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static ppm_status build_glass_table(ppm_render *render)
+{
+    if (!has_rough_glass(render->scene)) return PPM_STATUS_OK;
+    render->glass = ppmi_alloc(render->context, 1, sizeof *render->glass);
+    if (!render->glass) {
+        return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: tables");
+    }
+    ppmi_glass_table_init(render->glass);
+    render->albedo->glass = render->glass;
+    return PPM_STATUS_OK;
+}
+
 static ppm_status build_world(ppm_render *render)
 {
     render->albedo = ppmi_alloc(render->context, 1, sizeof *render->albedo);
@@ -275,7 +301,10 @@ static ppm_status build_world(ppm_render *render)
         render->albedo->lobes = render->lobes;
     }
     ppmi_spectrum_init(render->spectrum);
-    ppm_status status = ppmi_accel_create(render->context, render->scene, &render->accel);
+    ppm_status status = build_glass_table(render);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_accel_create(render->context, render->scene, &render->accel);
+    }
     if (status == PPM_STATUS_OK) {
         status = ppmi_lights_create(render->context, render->scene, &render->lights);
     }
@@ -435,6 +464,7 @@ void ppm_render_destroy(ppm_render *render)
     ppmi_accel_destroy(render->accel);
     ppmi_free(render->context, render->albedo);
     ppmi_free(render->context, render->lobes);
+    ppmi_free(render->context, render->glass);
     ppmi_free(render->context, render->spectrum);
     ppmi_scene_thaw(render->scene);
     ppmi_free(render->context, render);

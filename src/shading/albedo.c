@@ -63,6 +63,7 @@ void ppmi_albedo_table_init(ppmi_albedo_table *table)
         table->average[r] = average_of(table->directional[r]);
     }
     table->lobes = NULL;
+    table->glass = NULL;
 }
 
 static ppmi_albedo_pair mix(ppmi_albedo_pair p, ppmi_albedo_pair q, float t)

@@ -78,8 +78,50 @@ static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_
     choose_by_albedo(bsdf, albedos, 3);
 }
 
+/* 1 - E of a rough glass lobe on the side where eta is the index beyond. A thin sheet transmits
+ * what it reflects, mirrored: its E is that of a surface that reflects all. */
+static float glass_lost(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float eta,
+                        float cosine)
+{
+    if (!bsdf->is_thin) return ppmi_glass_lost(albedo->glass, bsdf->roughness, eta, cosine);
+    const ppmi_albedo_pair pair = ppmi_albedo_directional(albedo, bsdf->roughness, cosine);
+    return ppmi_max(1.0f - pair.a - pair.b, 0.0f);
+}
+
+static float glass_lost_average(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float eta)
+{
+    if (!bsdf->is_thin) return ppmi_glass_lost_average(albedo->glass, bsdf->roughness, eta);
+    const ppmi_albedo_pair pair = ppmi_albedo_average(albedo, bsdf->roughness);
+    return ppmi_max(1.0f - pair.a - pair.b, 0.0f);
+}
+
+/* What single scattering loses comes back on both sides, by m(w) = 1 - E(w) of either direction
+ * (Kulla and Conty 2017). With M the mean of m, weighted by the cosine, and a share t of it that
+ * goes through,
+ *
+ *     f(o, i) = (1 - t) m(o) m(i) / (pi M)    on o's side,
+ *     f(o, i) = t m(o) m'(i) / (pi M')        beyond (primed), for power,
+ *
+ * all that is lost comes back. It is the same both ways if t / (n'^2 M') = t' / (n^2 M), n the
+ * index. Fresnel's mean transmittance T has n^2 T = n'^2 T'; so t = T min(1, M' / M). */
+static void make_rough_glass(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+{
+    const float eta = bsdf->eta, beyond = bsdf->is_thin ? eta : 1.0f / eta;
+    const float here_average = ppmi_max(glass_lost_average(bsdf, albedo, eta), 1e-7f);
+    const float beyond_average = ppmi_max(glass_lost_average(bsdf, albedo, beyond), 1e-7f);
+    float through = bsdf->is_thin ? ppmi_glass_sheet_transmitted_average(albedo->glass, eta)
+                                  : ppmi_glass_transmitted_average(albedo->glass, eta);
+    through *= ppmi_min(1.0f, beyond_average / here_average);
+    bsdf->glass_lost = glass_lost(bsdf, albedo, eta, bsdf->wo.z);
+    bsdf->glass_returned = 1.0f - through;
+    const float lost = bsdf->glass_weight * bsdf->glass_lost * PPMI_INV_PI;
+    bsdf->glass_back = lost * (1.0f - through) / here_average;
+    bsdf->glass_through = lost * through / beyond_average;
+}
+
 /* The index ratio and roughness of the glass lobe. */
-static void make_glass(ppmi_bsdf *bsdf, const ppmi_material_point *point, bool is_outside)
+static void make_glass(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                       const ppmi_material_point *point, bool is_outside)
 {
     const float index = ppmi_dielectric_index(point->ior);
     bsdf->is_thin = point->is_thin;
@@ -90,6 +132,9 @@ static void make_glass(ppmi_bsdf *bsdf, const ppmi_material_point *point, bool i
     bsdf->glass_alpha = bsdf->alpha;
     /* without an index step there is no half vector: the ray goes straight on */
     if (fabsf(bsdf->eta - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
+    if (bsdf->glass_weight > 0.0f && bsdf->glass_alpha >= PPMI_SMOOTH_ALPHA) {
+        make_rough_glass(bsdf, albedo);
+    }
 }
 
 /* Nothing reflects but the diffuse base: the albedo table is not needed. */
@@ -149,7 +194,7 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     const float metal = opaque > 0.0f ? point->metallic / opaque : 0.0f;
     bsdf->f0 = vec3_scale(vec3_lerp(dielectric_f0, point->base_color, metal), opaque);
     bsdf->f90 = vec3_splat(opaque * (point->specular + (1.0f - point->specular) * metal));
-    make_glass(bsdf, point, is_outside);
+    make_glass(bsdf, albedo, point, is_outside);
     if (point->is_layered) {
         make_layered(bsdf, albedo, point, wo, dielectric_f0, opaque);
         return;
@@ -278,7 +323,19 @@ static float transmitted_scale(const ppmi_bsdf *bsdf, ppmi_transport transport)
     return 1.0f / (bsdf->eta * bsdf->eta);
 }
 
-static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
+/* What comes back of what single scattering loses. Light that goes through is tinted once. */
+static ppmi_vec3 glass_multiple_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                     ppmi_vec3 wi, ppmi_transport transport)
+{
+    if (wi.z > 0.0f) {
+        return vec3_splat(bsdf->glass_back * glass_lost(bsdf, albedo, bsdf->eta, wi.z));
+    }
+    const float beyond = bsdf->is_thin ? bsdf->eta : 1.0f / bsdf->eta;
+    return vec3_scale(bsdf->tint, bsdf->glass_through * glass_lost(bsdf, albedo, beyond, -wi.z) *
+                                      transmitted_scale(bsdf, transport));
+}
+
+static ppmi_vec3 glass_single_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
 {
     const bool is_transmission = wi.z < 0.0f;
     const ppmi_vec3 folded = thin_fold(bsdf, wi);
@@ -296,7 +353,32 @@ static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport 
                       common * (1.0f - reflectance) * transmitted_scale(bsdf, transport));
 }
 
-static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
+                            ppmi_transport transport)
+{
+    return vec3_add(glass_single_eval(bsdf, wi, transport),
+                    glass_multiple_eval(bsdf, albedo, wi, transport));
+}
+
+/* Of directions by the cosine c, c / (c^2 + alpha^2) normalised: 1 - E falls with the cosine's
+ * square beyond alpha, so that its product with the cosine is about this. */
+static float glass_multiple_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const float alpha2 = bsdf->glass_alpha * bsdf->glass_alpha, c = fabsf(wi.z);
+    const float share = wi.z > 0.0f ? bsdf->glass_returned : 1.0f - bsdf->glass_returned;
+    return share * c / ((c * c + alpha2) * log1pf(1.0f / alpha2)) * PPMI_INV_PI;
+}
+
+static ppmi_vec3 draw_glass_multiple(const ppmi_bsdf *bsdf, float u_side, float u, float v)
+{
+    const float alpha2 = bsdf->glass_alpha * bsdf->glass_alpha;
+    const float c2 = ppmi_min(alpha2 * expm1f(u * log1pf(1.0f / alpha2)), 1.0f);
+    const float sine = sqrtf(1.0f - c2), phi = 2.0f * PPMI_PI * v;
+    const float c = ppmi_max(sqrtf(c2), 1e-6f);
+    return vec3(sine * cosf(phi), sine * sinf(phi), u_side < bsdf->glass_returned ? c : -c);
+}
+
+static float glass_single_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
     const bool is_transmission = wi.z < 0.0f;
     const ppmi_vec3 folded = thin_fold(bsdf, wi);
@@ -306,6 +388,12 @@ static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
     const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);
     return (is_transmission ? 1.0f - reflectance : reflectance) *
            ppmi_ggx_visible_d(bsdf->glass_alpha, bsdf->wo, h) * glass_jacobian(bsdf, folded, h);
+}
+
+static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    return (1.0f - bsdf->glass_lost) * glass_single_pdf(bsdf, wi) +
+           bsdf->glass_lost * glass_multiple_pdf(bsdf, wi);
 }
 
 /* Both normals must agree on which side wi is: light does not leak through the surface where the
@@ -325,7 +413,8 @@ __attribute__((noinline)) static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf,
     if (sides_agree(bsdf, wi_world, wi.z)) {
         f = ppmi_layers_eval_base(bsdf, albedo, wi, mask);
         if (mask & PPMI_LOBE_GLASS) {
-            f = vec3_mad(f, glass_eval(bsdf, wi, transport), ppmi_layers_passing(bsdf, albedo, wi));
+            f = vec3_mad(f, glass_eval(bsdf, albedo, wi, transport),
+                         ppmi_layers_passing(bsdf, albedo, wi));
         }
     }
     if (mask & PPMI_LOBE_COAT && vec3_dot(wi_world, bsdf->ng) > 0.0f) {
@@ -349,7 +438,7 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
         if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
         if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
     }
-    if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, glass_eval(bsdf, wi, transport));
+    if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, glass_eval(bsdf, albedo, wi, transport));
     return f;
 }
 
@@ -531,10 +620,15 @@ uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
     return count;
 }
 
-/* A direction of the rough glass lobe, local. u is used up for the choice of side and what is left
- * of it for the facet. */
+/* A direction of the rough glass lobe, local. u_side decides between single scattering and the
+ * rest, then between the sides. */
 static bool draw_rough_glass(const ppmi_bsdf *bsdf, float u_side, float u, float v, ppmi_vec3 *wi)
 {
+    if (u_side < bsdf->glass_lost) {
+        *wi = draw_glass_multiple(bsdf, u_side / bsdf->glass_lost, u, v);
+        return true;
+    }
+    u_side = (u_side - bsdf->glass_lost) / (1.0f - bsdf->glass_lost);
     const ppmi_vec3 h = ppmi_ggx_sample_visible(bsdf->glass_alpha, bsdf->wo, u, v);
     float cos_t;
     const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);

@@ -1,6 +1,8 @@
 /* Material evaluation: factors times textures. */
 #include "shading/material.h"
 
+#include "shading/microfacet.h"
+
 static ppmi_texel lookup(const ppm_scene *scene, const ppmi_surface *surface,
                          const ppm_texture *texture)
 {
@@ -140,4 +142,13 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
     out_point->ns = mapped_normal(scene, surface, &desc->normal_texture, desc->normal_scale);
     out_point->is_layered = surface->material->is_layered;
     if (out_point->is_layered) evaluate_layers(scene, surface, &out_point->layers);
+}
+
+float ppmi_material_coat_passing(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    const float coat = unit(desc->clearcoat * lookup(scene, surface, &desc->clearcoat_texture).r);
+    const ppmi_vec3 normal = mapped_normal(scene, surface, &desc->clearcoat_normal_texture,
+                                           desc->clearcoat_normal_scale);
+    return 1.0f - coat * ppmi_coat_fresnel(fabsf(vec3_dot(normal, wo)));
 }

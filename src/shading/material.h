@@ -37,4 +37,8 @@ typedef struct ppmi_material_point {
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
                             ppmi_material_point *out_point);
 
+/* What a clearcoat leaves of the emission below it in direction wo (unit, away from the surface):
+ * 1 - clearcoat * F(N.wo) with the coat's normal (KHR_materials_clearcoat). */
+float ppmi_material_coat_passing(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo);
+
 #endif

@@ -89,4 +89,10 @@ static inline float ppmi_schlick_weight(float cos_theta)
     return m * m * m * m * m;
 }
 
+/* Schlick's Fresnel term of a clearcoat: index 1.5. */
+static inline float ppmi_coat_fresnel(float cos_theta)
+{
+    return 0.04f + 0.96f * ppmi_schlick_weight(cos_theta);
+}
+
 #endif

@@ -10,6 +10,7 @@
 
 #include "accel/round.h"
 #include "scene/motion.h"
+#include "shading/material.h"
 
 /* Roundings in: object to world (4 products and sums), interpolation, Embree's own edge tests. */
 static const float error_ulps = 24.0f;
@@ -447,6 +448,9 @@ ppmi_vec3 ppmi_surface_emission(const ppm_scene *scene, const ppmi_surface *surf
         for (int i = 0; i < 3; i++)
             vertex[i] = ppmi_max(vertex[i], 0.0f);
         radiance = vec3_mul(radiance, vec3_load(vertex));
+    }
+    if (material->desc.clearcoat > 0.0f) {
+        radiance = vec3_scale(radiance, ppmi_material_coat_passing(scene, surface, wo));
     }
     return radiance;
 }

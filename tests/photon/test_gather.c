@@ -16,6 +16,7 @@
 static ppm_context *context;
 static ppmi_albedo_table albedo;
 static ppmi_lobe_table lobes;
+static ppmi_glass_table glass;
 static ppmi_visible_point point;
 
 static const ppmi_vec3 up = {0.0f, 0.0f, 1.0f};
@@ -25,7 +26,9 @@ static int start(void **state)
     (void)state;
     ppmi_albedo_table_init(&albedo);
     ppmi_lobe_table_init(&lobes);
+    ppmi_glass_table_init(&glass);
     albedo.lobes = &lobes;
+    albedo.glass = &glass;
     return ppm_context_create(NULL, &context) == PPM_STATUS_OK ? 0 : -1;
 }
 

@@ -33,6 +33,8 @@ static const struct {
         {"glass in water", 0, 1, 1, 1.5f, {1, 1, 1}, false, false, 1.5f / 1.33f},
     [KIND_GLASS_TO_WATER] =
         {"water around glass, from inside", 0, 1, 1, 1.5f, {1, 1, 1}, false, true, 1.33f / 1.5f},
+    [KIND_DENSE_GLASS] = {"dense glass", 0, 1, 1, 2.4f, {1, 1, 1}, false, false},
+    [KIND_DENSE_GLASS_INSIDE] = {"dense glass from inside", 0, 1, 1, 2.4f, {1, 1, 1}, false, true},
 #define LAYERED false, false, 0, true
     [KIND_COATED_LAMBERT] =
         {"coated lambert", 0, 0, 0, 1.5f, {0.8f, 0.5f, 0.2f}, LAYERED, {.coat = 1.0f}},
@@ -184,10 +186,13 @@ const ppmi_albedo_table *bsdf_albedo(void)
 {
     static ppmi_albedo_table table;
     static ppmi_lobe_table lobes;
+    static ppmi_glass_table glass;
     if (table.lobes) return &table;
     ppmi_albedo_table_init(&table);
     ppmi_lobe_table_init(&lobes);
+    ppmi_glass_table_init(&glass);
     table.lobes = &lobes;
+    table.glass = &glass;
     return &table;
 }
 

@@ -26,6 +26,8 @@ enum {
     KIND_HALF_GLASS_INSIDE,
     KIND_WATER_TO_GLASS, /* nested solids: the index before the surface is not 1 */
     KIND_GLASS_TO_WATER,
+    KIND_DENSE_GLASS,
+    KIND_DENSE_GLASS_INSIDE,
     KIND_COATED_LAMBERT, /* layered, from here on */
     KIND_WHITE_COATED_PLASTIC,
     KIND_WHITE_COATED_METAL,

@@ -194,10 +194,13 @@ static const ppmi_albedo_table *shared_albedo(void)
 {
     static ppmi_albedo_table table;
     static ppmi_lobe_table lobes;
+    static ppmi_glass_table glass;
     if (table.lobes) return &table;
     ppmi_albedo_table_init(&table);
     ppmi_lobe_table_init(&lobes);
+    ppmi_glass_table_init(&glass);
     table.lobes = &lobes;
+    table.glass = &glass;
     return &table;
 }
 
