@@ -242,16 +242,19 @@ static ppm_status add_material(ppmi_obj_reader *r, uint32_t index, const char *n
     convert(&c);
     if (c.status != PPM_STATUS_OK) return c.status;
     material->is_added = true;
+    material->needs_tangents = c.desc.normal_texture.image != 0 || c.desc.anisotropy > 0.0f;
     r->tally.glass += c.desc.transmission > 0.0f;
     return ppm_scene_add_material(r->scene, &c.desc, &material->id);
 }
 
-ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material_id *out_id)
+ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material_id *out_id,
+                                 bool *out_needs_tangents)
 {
     uint32_t index;
     ppm_status status = PPM_STATUS_OK;
     const char *name = ppmi_obj_names_get(&r->used_materials, used);
     *out_id = 0;
+    *out_needs_tangents = false;
     if (!ppmi_obj_names_find(&r->library_materials, name, &index)) {
         /* once for each name: the table of what is missing says whether it was told */
         const uint32_t told = ppmi_obj_names_count(&r->missing_materials);
@@ -266,5 +269,6 @@ ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material
     const ppmi_obj_material *material = (const ppmi_obj_material *)r->materials.items + index;
     if (!material->is_added) status = add_material(r, index, name);
     *out_id = material->id;
+    *out_needs_tangents = material->needs_tangents;
     return status;
 }

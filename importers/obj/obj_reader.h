@@ -10,11 +10,13 @@
 #include "obj/obj_tables.h"
 #include "ppm/import.h"
 
-/* Faces in a row that share their state. */
+/* Faces, lines or points in a row that share their state. A line and a row of points count as a
+ * face. */
 typedef struct ppmi_obj_run {
     uint32_t object;    /* index of a name */
     uint32_t material;  /* 0: none, else 1 + index of a name in used_materials */
     uint32_t smoothing; /* group; 0: off */
+    int32_t kind;       /* PPM_PRIMITIVE_ */
     size_t first_face, first_corner;
     size_t end_face;
 } ppmi_obj_run;
@@ -39,6 +41,7 @@ typedef struct ppmi_obj_material {
     uint32_t library; /* index of the file's path in libraries */
     size_t line;      /* of its newmtl */
     bool is_added;
+    bool needs_tangents; /* known once it is added */
     ppm_material_id id;
 } ppmi_obj_material;
 
@@ -46,11 +49,13 @@ typedef struct ppmi_obj_material {
 typedef struct ppmi_obj_reach {
     int32_t most; /* from 1 */
     size_t line;
+    int32_t kind; /* PPM_PRIMITIVE_: what it is an index of */
 } ppmi_obj_reach;
 
 /* What is counted and told once, at the end. */
 typedef struct ppmi_obj_tally {
-    size_t lines, points, free_forms, small_faces, unknown, glass;
+    size_t free_forms, small_faces, short_lines, unknown, glass;
+    size_t flat_faces; /* without a normal */
     size_t unknown_line;
     char unknown_word[32]; /* the first one */
 } ppmi_obj_tally;
@@ -58,6 +63,7 @@ typedef struct ppmi_obj_tally {
 struct ppmi_obj_reader {
     ppm_context *context;
     ppm_scene *scene;
+    const ppm_import_options *options;
     const char *path;  /* of the file; also its name in messages */
     char *stem;        /* its name without folder and ending */
     ppm_status status; /* the first failure while statements are read */
@@ -74,10 +80,14 @@ struct ppmi_obj_reader {
     ppmi_obj_array corners;   /* ppmi_obj_corner: indices from 0, -1 for none */
     ppmi_obj_array faces;     /* uint32_t: number of corners */
     ppmi_obj_array runs;      /* ppmi_obj_run */
+    ppmi_obj_array element;   /* ppmi_obj_corner: of the line or points that are read */
+    bool has_smoothing;       /* some face is in a group */
+    float line_radius;        /* 0: not known yet */
     ppmi_obj_reach position_reach, uv_reach, normal_reach;
 
     char *object, *group; /* current names, or NULL */
     uint32_t smoothing, material;
+    int32_t kind; /* of the latest run */
     bool is_new_run;
     ppmi_obj_names objects;        /* names of nodes */
     ppmi_obj_names used_materials; /* by usemtl */
@@ -104,6 +114,27 @@ ppm_status ppmi_obj_out_of_memory(ppmi_obj_reader *reader);
 /* obj_statements.c: reads the file. Afterwards every index is in range. */
 ppm_status ppmi_obj_read_statements(ppmi_obj_reader *reader);
 
+/* obj_elements.c: the corners of an l or p statement, without its word, as written. False when
+ * memory is out. */
+bool ppmi_obj_read_corners(ppmi_obj_reader *reader, const char *text, size_t length,
+                           ppmi_obj_array *out, bool *out_is_valid);
+/* Triangles, points or segments of one statement. */
+size_t ppmi_obj_element_count(int32_t kind, size_t corner_count);
+/* Of lines and points, in the units of the file: as asked for, or by the box of all vertices. */
+float ppmi_obj_line_radius(ppmi_obj_reader *reader);
+
+/* obj_crease.c: normals for the faces of a file without smoothing groups, where a crease angle is
+ * asked for. */
+ppm_status ppmi_obj_crease_normals(ppmi_obj_reader *reader);
+
+/* The angle at a corner, 0 .. pi; 0 where an edge has no length. */
+double ppmi_obj_corner_angle(const ppmi_obj_reader *reader, const ppmi_obj_corner *corners,
+                             size_t count, size_t i);
+
+/* Vectors of 3 doubles each, made unit length, behind the file's normals; zero for those without
+ * length. False when memory is out. */
+bool ppmi_obj_append_normals(ppmi_obj_reader *reader, const double *vectors, size_t count);
+
 /* obj_normals.c: normals for the corners without one that are in a smoothing group. */
 ppm_status ppmi_obj_smooth_normals(ppmi_obj_reader *reader);
 
@@ -115,7 +146,8 @@ void ppmi_obj_face_normal(const ppmi_obj_reader *reader, const ppmi_obj_corner *
 ppm_status ppmi_obj_read_libraries(ppmi_obj_reader *reader);
 
 /* obj_material.c: the scene's material for one of used_materials; 0 if no library has it. */
-ppm_status ppmi_obj_use_material(ppmi_obj_reader *reader, uint32_t used, ppm_material_id *out_id);
+ppm_status ppmi_obj_use_material(ppmi_obj_reader *reader, uint32_t used, ppm_material_id *out_id,
+                                 bool *out_needs_tangents);
 
 /* obj_texture.c: the texture of a map; all zero when it cannot be had. statement is for messages.
  */
