@@ -30,8 +30,7 @@ static void report_ignored(const ppmi_obj_reader *r)
         used += n > 0 ? (size_t)n : 0;
     }
     if (count > 0) {
-        ppmi_log(r->context, PPM_LOG_WARNING,
-                 "%s: statements of materials that are not supported and have no effect: %s",
+        ppmi_log(r->context, PPM_LOG_WARNING, "%s: statements of materials that have no effect: %s",
                  r->path, list);
     }
 }
@@ -54,6 +53,10 @@ static void report(const ppmi_obj_reader *r)
         ppmi_log(r->context, PPM_LOG_INFO, "%s: %zu materials of solid glass", r->path,
                  tally->glass);
     }
+    report_count(r, tally->reflections,
+                 "reflection maps (refl) without effect: reflections are traced");
+    report_count(r, tally->displaced,
+                 "displacement maps (disp) that are shown as bumps: the surface stays where it is");
     if (tally->flat_faces > 0) {
         ppmi_log(r->context, PPM_LOG_INFO,
                  "%s: %zu faces without normals and smoothing group are flat", r->path,
@@ -92,7 +95,7 @@ static void deinit(ppmi_obj_reader *r)
         &r->objects,           &r->used_materials,    &r->library_names, &r->libraries,
         &r->library_materials, &r->missing_materials, &r->ignored,       &r->images};
     for (size_t i = 0; i < r->materials.count; ++i) {
-        ppmi_obj_mtl_destroy(((const ppmi_obj_material *)r->materials.items)[i].mtl);
+        ppmi_obj_material_deinit(r->context, (ppmi_obj_material *)r->materials.items + i);
     }
     ppmi_obj_array_deinit(r->context, &r->materials);
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {

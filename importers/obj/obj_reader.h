@@ -5,6 +5,7 @@
 
 #include "obj/obj_import.h"
 #include "obj/obj_lines.h"
+#include "obj/obj_map.h"
 #include "obj/obj_polygon.h"
 #include "obj/obj_shim.h"
 #include "obj/obj_tables.h"
@@ -31,12 +32,19 @@ enum {
     PPMI_OBJ_HAS_D = 1 << 5,
     PPMI_OBJ_HAS_ILLUM = 1 << 6,
     PPMI_OBJ_HAS_PR = 1 << 7,
-    PPMI_OBJ_HAS_PM = 1 << 8
+    PPMI_OBJ_HAS_PM = 1 << 8,
+    PPMI_OBJ_HAS_NI = 1 << 9,
+    PPMI_OBJ_HAS_PS = 1 << 10,
+    PPMI_OBJ_HAS_PC = 1 << 11,
+    PPMI_OBJ_HAS_PCR = 1 << 12,
+    PPMI_OBJ_HAS_ANISO = 1 << 13,
+    PPMI_OBJ_HAS_ANISOR = 1 << 14
 };
 
 /* A material of a library; its name is library_materials[i]. */
 typedef struct ppmi_obj_material {
     const ppmi_obj_mtl *mtl;
+    ppmi_obj_map maps[PPMI_OBJ_MAP_COUNT];
     uint32_t given;   /* PPMI_OBJ_HAS_ */
     uint32_t library; /* index of the file's path in libraries */
     size_t line;      /* of its newmtl */
@@ -54,7 +62,7 @@ typedef struct ppmi_obj_reach {
 
 /* What is counted and told once, at the end. */
 typedef struct ppmi_obj_tally {
-    size_t free_forms, small_faces, short_lines, unknown, glass;
+    size_t free_forms, small_faces, short_lines, unknown, glass, displaced, reflections;
     size_t flat_faces; /* without a normal */
     size_t unknown_line;
     char unknown_word[32]; /* the first one */
@@ -145,27 +153,66 @@ void ppmi_obj_face_normal(const ppmi_obj_reader *reader, const ppmi_obj_corner *
 /* obj_library.c: reads the material libraries. What cannot be found is left out with a warning. */
 ppm_status ppmi_obj_read_libraries(ppmi_obj_reader *reader);
 
+void ppmi_obj_material_deinit(ppm_context *context, ppmi_obj_material *material);
+
 /* obj_material.c: the scene's material for one of used_materials; 0 if no library has it. */
 ppm_status ppmi_obj_use_material(ppmi_obj_reader *reader, uint32_t used, ppm_material_id *out_id,
                                  bool *out_needs_tangents);
 
-/* obj_texture.c: the texture of a map; all zero when it cannot be had. statement is for messages.
- */
-ppm_status ppmi_obj_use_map(ppmi_obj_reader *reader, const ppmi_obj_material *material,
-                            const ppmi_obj_map *map, const char *statement, int32_t role,
-                            ppm_texture *out_texture);
+/* obj_texture.c: the texture of a map (PPMI_OBJ_MAP_), with its pixels as they are; all zero when
+ * it cannot be had. */
+ppm_status ppmi_obj_use_map(ppmi_obj_reader *reader, const ppmi_obj_material *material, int32_t map,
+                            int32_t role, ppm_texture *out_texture);
+
+/* An image made of the pixels of up to two maps, pixel by pixel. A map that is not there, or cannot
+ * be had, is white, or what missing says. */
+typedef struct ppmi_obj_mixture {
+    const char *kind; /* a word for each mix: images of the same maps may differ */
+    int32_t maps[2];  /* PPMI_OBJ_MAP_; the second one may be -1 */
+    float missing[2];
+    int32_t role;      /* of the first map and of the result; the second map is data */
+    uint32_t channels; /* of the result: 1, 3 or 4; 0: 3, or 4 where the first map has alpha */
+    float parameter;
+    /* a and b: RGBA after -imfchan and -mm */
+    void (*mix)(float parameter, const float a[4], const float b[4], float out[4]);
+} ppmi_obj_mixture;
+
+/* obj_texture.c: the texture of a mixture; all zero when none of its maps can be had. */
+ppm_status ppmi_obj_use_mixture(ppmi_obj_reader *reader, const ppmi_obj_material *material,
+                                const ppmi_obj_mixture *mixture, ppm_texture *out_texture);
+
+/* obj_texture.c: the texture of a height map, as a normal map of unit strength. An
+ * image that is one already is used as it is. */
+ppm_status ppmi_obj_use_bump(ppmi_obj_reader *reader, const ppmi_obj_material *material,
+                             int32_t map, ppm_texture *out_texture);
+
+/* obj_mix.c: makes the image of a mixture. paths: of the two maps, NULL for none. Where no map can
+ * be read *out_id stays 0. Returns OK, OUT_OF_MEMORY or what the scene does. */
+ppm_status ppmi_obj_mix_images(ppmi_obj_reader *reader, const ppmi_obj_material *material,
+                               const ppmi_obj_mixture *mixture, const char *const paths[2],
+                               ppm_image_id *out_id);
+/* obj_bump.c: makes a normal map of heights; an image that is a normal map is added as it is. */
+ppm_status ppmi_obj_bump_image(ppmi_obj_reader *reader, const ppmi_obj_map *map, const char *path,
+                               ppm_image_id *out_id);
+
+/* Rec.709 luminance. */
+static inline float ppmi_obj_luminance(const float rgb[3])
+{
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
 
 /* obj_mesh.c: one mesh and one instance for each object. */
 ppm_status ppmi_obj_emit(ppmi_obj_reader *reader);
 
 /* ---- obj_path.c ------------------------------------------------------------------------------ */
 
-/* Finds a file that the OBJ or one of its libraries names: in folder first (part of a path below
- * the OBJ's folder, "" or with a slash at its end), then beside the OBJ; as written, then in other
- * letter case, then by its last part alone. Nothing outside of the OBJ's folder is found.
+/* Finds a file that the OBJ or one of its libraries names; beside is the path of the one that does.
+ * It is looked for in the folder of that file, then in that of the OBJ: as written, then in other
+ * letter case, then by ever shorter ends of the name; then in the same way in the texture folders.
+ * Without allow_outside nothing outside of these folders is found.
  * *out_path is the caller's to free; NULL when there is none. *out_is_elsewhere: it is not where
  * the name says. Returns OK or OUT_OF_MEMORY (reported). */
-ppm_status ppmi_obj_find_file(ppmi_obj_reader *reader, const char *folder, const char *name,
+ppm_status ppmi_obj_find_file(ppmi_obj_reader *reader, const char *beside, const char *name,
                               char **out_path, bool *out_is_elsewhere);
 
 /* Length of the path before its last part: "a/b.obj" has 2. */
