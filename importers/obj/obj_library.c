@@ -93,6 +93,7 @@ static void take_statement(library *l, char *text, size_t length, char **out_tex
         if (!ppmi_obj_map_read(context, rest, rest_length, &l->maps[map])) {
             set_status(l, ppmi_obj_out_of_memory(l->reader));
         }
+        l->maps[map].line = l->lines.number;
         return;
     }
     l->given |= given_by(word);

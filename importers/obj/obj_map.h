@@ -30,6 +30,7 @@ enum {
 
 typedef struct ppmi_obj_map {
     char *name; /* UTF-8; NULL: there is no such statement */
+    size_t line;
     float offset[2], scale[2];
     float base, gain; /* -mm: values are base + gain * value */
     float bump;       /* -bm */
@@ -57,7 +58,7 @@ static inline bool ppmi_obj_map_is_named(const ppmi_obj_map *map)
 /* Whether pixels are used as they are. */
 static inline bool ppmi_obj_map_is_plain(const ppmi_obj_map *map)
 {
-    return map->channel == 0 && map->base == 0.0f && map->gain == 1.0f;
+    return !map->name || (map->channel == 0 && map->base == 0.0f && map->gain == 1.0f);
 }
 
 #endif

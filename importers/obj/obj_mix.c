@@ -31,11 +31,12 @@ static ppm_status open_picture(ppmi_obj_reader *r, const ppmi_obj_map *map, cons
     return PPM_STATUS_OK;
 }
 
-/* What stands for the channel that map_d does not name: the matte of an image that has one, else
- * how bright it is. */
-static char matte_channel(const ppmi_obj_picture *p)
+/* What stands for the channel that map_d does not name: the matte of an image that has one, or that
+ * is the one of the colours; else how bright it is. */
+static char matte_channel(const ppmi_obj_picture *p, const char *const paths[2])
 {
-    return p->mean[3] < 1.0f - 1e-6f ? 'm' : 'l';
+    const bool is_of_colors = paths[0] && strcmp(paths[0], paths[1]) == 0;
+    return is_of_colors || p->mean[3] < 1.0f - 1e-6f ? 'm' : 'l';
 }
 
 static ppm_status open_pictures(ppmi_obj_reader *r, const ppmi_obj_material *material, canvas *c,
@@ -48,7 +49,8 @@ static ppm_status open_pictures(ppmi_obj_reader *r, const ppmi_obj_material *mat
         status = open_picture(r, &material->maps[map], paths[i],
                               i == 0 ? c->desc.role : PPM_IMAGE_DATA, &c->pictures[i]);
         ppmi_obj_picture *p = &c->pictures[i];
-        if (p->scene && map == PPMI_OBJ_MAP_D && p->channel == 0) p->channel = matte_channel(p);
+        if (p->scene && map == PPMI_OBJ_MAP_D && p->channel == 0)
+            p->channel = matte_channel(p, paths);
     }
     return status;
 }

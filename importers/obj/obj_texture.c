@@ -13,7 +13,7 @@ static void warn(const ppmi_obj_reader *r, const ppmi_obj_material *material, in
                  const char *reason)
 {
     ppmi_log(r->context, PPM_LOG_WARNING, "%s: line %zu: %s '%s': %s",
-             ppmi_obj_names_get(&r->libraries, material->library), material->line,
+             ppmi_obj_names_get(&r->libraries, material->library), material->maps[map].line,
              ppmi_obj_map_word(map), material->maps[map].name, reason);
 }
 
