@@ -162,7 +162,7 @@ static void write_gltf(obj_fixture *f)
 
 static void write_images(obj_fixture *f)
 {
-    static const char paint[] = "P6 2 2 255\n\xff\x40\x40\x40\xff\x40\x40\x40\xff\xff\xff\x80";
+    static const char paint[] = "P6 2 2 255\n\xff\x40\x40\x20\xff\x20\x10\x10\xff\x20\x20\x10";
     static const char relief[] = "P6 2 1 255\n\xc0\x80\xe0\x40\x90\xe0";
     obj_write(f, "sub/paint.ppm", paint, sizeof paint - 1);
     obj_write(f, "sub/relief.ppm", relief, sizeof relief - 1);
@@ -214,7 +214,8 @@ static void the_same_model_gives_the_same_picture(void **state)
     for (uint64_t seed = 1; seed <= SEEDS; ++seed) {
         double a[BLOCKS * BLOCKS][3], b[BLOCKS * BLOCKS][3];
         measure_blocks(obj, seed, a);
-        measure_blocks(gltf, SEEDS + seed, b);
+        /* the same random numbers: there is little noise in the difference */
+        measure_blocks(gltf, seed, b);
         for (size_t i = 0; i < BLOCKS * BLOCKS; ++i) {
             for (size_t k = 0; k < 3; ++k) {
                 mean_add(&differences[i][k], a[i][k] - b[i][k]);
