@@ -6,7 +6,7 @@
 #include "obj_fixture.h"
 #include "support/renders.h"
 
-enum { QUADS = 10, SIDE = 24, BLOCKS = 4, SEEDS = 8, PASSES = 6 };
+enum { QUADS = 10, SIDE = 24, BLOCKS = 4, SEEDS = 10, PASSES = 8 };
 
 typedef struct quad {
     int material;
