@@ -30,8 +30,7 @@ static void report_ignored(const ppmi_obj_reader *r)
         used += n > 0 ? (size_t)n : 0;
     }
     if (count > 0) {
-        ppmi_log(r->context, PPM_LOG_WARNING,
-                 "%s: statements of materials that are not supported and have no effect: %s",
+        ppmi_log(r->context, PPM_LOG_WARNING, "%s: statements of materials that have no effect: %s",
                  r->path, list);
     }
 }
@@ -39,10 +38,9 @@ static void report_ignored(const ppmi_obj_reader *r)
 static void report(const ppmi_obj_reader *r)
 {
     const ppmi_obj_tally *tally = &r->tally;
-    report_count(r, tally->lines, "line statements left out");
-    report_count(r, tally->points, "point statements left out");
     report_count(r, tally->free_forms, "free-form curves and surfaces left out");
     report_count(r, tally->small_faces, "faces of fewer than three corners left out");
+    report_count(r, tally->short_lines, "lines and points of too few vertices left out");
     report_count(r, r->polygons.forced,
                  "polygons that cross themselves or are too involved: split as well as possible");
     if (tally->unknown > 0) {
@@ -55,8 +53,18 @@ static void report(const ppmi_obj_reader *r)
         ppmi_log(r->context, PPM_LOG_INFO, "%s: %zu materials of solid glass", r->path,
                  tally->glass);
     }
+    report_count(r, tally->reflections,
+                 "reflection maps (refl) without effect: reflections are traced");
+    report_count(r, tally->displaced,
+                 "displacement maps (disp) that are shown as bumps: the surface stays where it is");
+    if (tally->flat_faces > 0) {
+        ppmi_log(r->context, PPM_LOG_INFO,
+                 "%s: %zu faces without normals and smoothing group are flat", r->path,
+                 tally->flat_faces);
+    }
     if (r->faces.count == 0) {
-        ppmi_log(r->context, PPM_LOG_WARNING, "%s: nothing to render: it has no faces", r->path);
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: nothing to render: it has no faces, lines or points", r->path);
     }
 }
 
@@ -80,13 +88,14 @@ static ppm_status check_content(ppmi_obj_reader *r)
 
 static void deinit(ppmi_obj_reader *r)
 {
-    ppmi_obj_array *const arrays[] = {&r->positions, &r->colors, &r->uvs,       &r->normals,
-                                      &r->corners,   &r->faces,  &r->image_ids, &r->runs};
+    ppmi_obj_array *const arrays[] = {&r->positions, &r->colors,  &r->uvs,
+                                      &r->normals,   &r->corners, &r->faces,
+                                      &r->image_ids, &r->runs,    &r->element};
     ppmi_obj_names *const names[] = {
         &r->objects,           &r->used_materials,    &r->library_names, &r->libraries,
         &r->library_materials, &r->missing_materials, &r->ignored,       &r->images};
     for (size_t i = 0; i < r->materials.count; ++i) {
-        ppmi_obj_mtl_destroy(((const ppmi_obj_material *)r->materials.items)[i].mtl);
+        ppmi_obj_material_deinit(r->context, (ppmi_obj_material *)r->materials.items + i);
     }
     ppmi_obj_array_deinit(r->context, &r->materials);
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {
@@ -107,13 +116,15 @@ struct ppmi_obj_asset {
     ppmi_obj_reader reader;
 };
 
-ppm_status ppmi_obj_asset_open(ppm_context *context, const char *path, ppmi_obj_asset **out_asset)
+ppm_status ppmi_obj_asset_open(ppm_context *context, const char *path,
+                               const ppm_import_options *options, ppmi_obj_asset **out_asset)
 {
     ppmi_obj_asset *asset = ppmi_alloc_zeroed(context, 1, sizeof *asset);
     if (!asset) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
     ppmi_obj_reader *r = &asset->reader;
     r->context = context;
     r->path = path;
+    r->options = options;
     ppm_status status = set_stem(r);
     if (status == PPM_STATUS_OK) status = ppmi_obj_read_statements(r);
     if (status == PPM_STATUS_OK) status = check_content(r);
@@ -131,6 +142,7 @@ ppm_status ppmi_obj_asset_import(ppmi_obj_asset *asset, ppm_scene *scene)
     r->scene = scene;
     ppm_status status = ppmi_obj_read_libraries(r);
     if (status == PPM_STATUS_OK) status = ppmi_obj_smooth_normals(r);
+    if (status == PPM_STATUS_OK) status = ppmi_obj_crease_normals(r);
     if (status == PPM_STATUS_OK) status = ppmi_obj_emit(r);
     if (status == PPM_STATUS_OK) report(r);
     return status;
@@ -153,8 +165,7 @@ ppm_status ppmi_obj_import(ppm_context *context, ppm_scene *scene, const char *p
                            const ppm_import_options *options)
 {
     ppmi_obj_asset *asset = NULL;
-    (void)options; /* lights and thin glass, neither of which an OBJ has */
-    ppm_status status = ppmi_obj_asset_open(context, path, &asset);
+    ppm_status status = ppmi_obj_asset_open(context, path, options, &asset);
     if (status == PPM_STATUS_OK) status = ppmi_obj_asset_import(asset, scene);
     ppmi_obj_asset_close(asset);
     return status;

@@ -1,6 +1,6 @@
 /* Material libraries (MTL): found beside the OBJ and cut into materials, each of which
- * tinyobjloader reads. Two things it would lose are seen to here: which statements there were, as
- * the default of a value is not the value, and options with fewer numbers than it expects. */
+ * tinyobjloader reads. What it would lose is seen to here: which statements there were, as the
+ * default of a value is not the value. Maps are read by obj_map.c. */
 #include <string.h>
 #include <strings.h>
 
@@ -14,10 +14,10 @@ typedef struct library {
     ppmi_obj_lines lines;
     char *name; /* of the next material, as UTF-8; NULL: there is none */
     size_t name_line;
-    uint32_t given;    /* by the statements of the current material */
-    size_t stray;      /* statements before the first newmtl */
-    char *rewritten;   /* a statement in other words, or NULL */
-    ppm_status status; /* the first failure */
+    uint32_t given;                        /* by the statements of the current material */
+    size_t stray;                          /* statements before the first newmtl */
+    ppmi_obj_map maps[PPMI_OBJ_MAP_COUNT]; /* of the current material */
+    ppm_status status;                     /* the first failure */
 } library;
 
 static void set_status(library *l, ppm_status status)
@@ -30,22 +30,24 @@ static uint32_t given_by(const char *word)
     static const struct {
         const char *word;
         uint32_t bit;
-    } table[] = {{"Kd", PPMI_OBJ_HAS_KD}, {"Ks", PPMI_OBJ_HAS_KS},      {"Ke", PPMI_OBJ_HAS_KE},
-                 {"Tf", PPMI_OBJ_HAS_TF}, {"Kt", PPMI_OBJ_HAS_TF},      {"Ns", PPMI_OBJ_HAS_NS},
-                 {"d", PPMI_OBJ_HAS_D},   {"Tr", PPMI_OBJ_HAS_D},       {"Pr", PPMI_OBJ_HAS_PR},
-                 {"Pm", PPMI_OBJ_HAS_PM}, {"illum", PPMI_OBJ_HAS_ILLUM}};
+    } table[] = {
+        {"Kd", PPMI_OBJ_HAS_KD},       {"Ks", PPMI_OBJ_HAS_KS},        {"Ke", PPMI_OBJ_HAS_KE},
+        {"Tf", PPMI_OBJ_HAS_TF},       {"Kt", PPMI_OBJ_HAS_TF},        {"Ns", PPMI_OBJ_HAS_NS},
+        {"d", PPMI_OBJ_HAS_D},         {"Tr", PPMI_OBJ_HAS_D},         {"Pr", PPMI_OBJ_HAS_PR},
+        {"Pm", PPMI_OBJ_HAS_PM},       {"illum", PPMI_OBJ_HAS_ILLUM},  {"Ni", PPMI_OBJ_HAS_NI},
+        {"Ps", PPMI_OBJ_HAS_PS},       {"Pc", PPMI_OBJ_HAS_PC},        {"Pcr", PPMI_OBJ_HAS_PCR},
+        {"aniso", PPMI_OBJ_HAS_ANISO}, {"anisor", PPMI_OBJ_HAS_ANISOR}};
     for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i) {
         if (strcmp(word, table[i].word) == 0) return table[i].bit;
     }
     return 0;
 }
 
-/* Statements that change nothing in the picture; Ka is light that the renderer computes. */
-static bool has_effect(const char *word)
+/* Whether nothing is lost: Ka is light that the renderer computes, sharpness is of reflection maps,
+ * and antialiasing of textures is always on. */
+static bool is_understood(const char *word)
 {
-    static const char *const words[] = {"Ni",    "map_Kd", "map_Ks",   "map_Ke",
-                                        "map_d", "map_Pr", "map_Pm",   "norm",
-                                        "Ka",    "map_Ka", "sharpness"};
+    static const char *const words[] = {"Ka", "map_Ka", "sharpness", "map_aat"};
     if (given_by(word) != 0) return true;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
         if (strcmp(word, words[i]) == 0) return true;
@@ -64,55 +66,6 @@ static void note_ignored(library *l, const char *word, size_t length)
     ppmi_free(r->context, text);
 }
 
-static bool is_number(const char *word, size_t length)
-{
-    for (size_t i = 0; i < length; ++i) {
-        if (!memchr("0123456789+-.eE", word[i], 15)) return false;
-    }
-    return length > 0;
-}
-
-/* The statement with -o, -s and -t brought to three numbers, as the parser takes the word behind a
- * shorter list for the next number; those that are added have no effect. NULL when memory is out.
- */
-static char *complete_options(ppm_context *context, const char *text, size_t length,
-                              size_t *out_length)
-{
-    char *out =
-        ppmi_alloc(context, 4 * length + 64, 1); /* an option of 3 bytes becomes at most 9 */
-    size_t count = 0;
-    int missing = 0; /* numbers of the current option */
-    char filler = '0';
-    for (size_t at = 0; out && at < length;) {
-        size_t word = 0;
-        while (at + word < length && !ppmi_obj_is_blank(text[at + word])) {
-            ++word;
-        }
-        const bool is_option = word == 2 && text[at] == '-' && strchr("ost", text[at + 1]);
-        const bool is_value = missing > 0 && is_number(text + at, word);
-        for (; missing > 0 && !is_value; --missing) {
-            out[count++] = filler;
-            out[count++] = ' ';
-        }
-        missing = is_option ? 3 : is_value ? missing - 1 : 0;
-        if (is_option) filler = text[at + 1] == 's' ? '1' : '0';
-        while (word < length - at && ppmi_obj_is_blank(text[at + word])) {
-            ++word;
-        }
-        memcpy(out + count, text + at, word);
-        count += word;
-        at += word;
-    }
-    if (out) out[count] = '\n';
-    *out_length = count;
-    return out;
-}
-
-static bool is_map(const char *word)
-{
-    return strncmp(word, "map_", 4) == 0 || strcmp(word, "norm") == 0;
-}
-
 /* Takes in a newmtl statement. */
 static void begin_material(library *l, const char *text, size_t length)
 {
@@ -121,31 +74,52 @@ static void begin_material(library *l, const char *text, size_t length)
     if (!l->name) set_status(l, ppmi_obj_out_of_memory(l->reader));
 }
 
-/* ppmi_obj_next_fn: the statements up to the next newmtl or the end. */
-static char *next_of_material(void *user, size_t *out_length)
+/* Takes in a statement; *out_text is what is left for the parser, NULL for nothing. */
+static void take_statement(library *l, char *text, size_t length, char **out_text)
 {
-    library *l = user;
     ppm_context *context = l->reader->context;
-    size_t length;
-    char *text = l->status == PPM_STATUS_OK ? ppmi_obj_lines_next(&l->lines, &length) : NULL;
-    if (!text) return NULL;
     char *rest = text, word[16] = {0};
     size_t rest_length = length;
     const size_t word_length = ppmi_obj_take_word(&rest, &rest_length);
     memcpy(word, text, word_length < sizeof word ? word_length : sizeof word - 1);
+    *out_text = NULL;
     if (strcmp(word, "newmtl") == 0) {
         begin_material(l, rest, rest_length);
-        return NULL;
+        return;
+    }
+    l->stray++;
+    const int32_t map = ppmi_obj_map_find(word);
+    if (map >= 0) {
+        if (!ppmi_obj_map_read(context, rest, rest_length, &l->maps[map])) {
+            set_status(l, ppmi_obj_out_of_memory(l->reader));
+        }
+        l->maps[map].line = l->lines.number;
+        return;
     }
     l->given |= given_by(word);
-    l->stray++;
-    if (!has_effect(word)) note_ignored(l, text, word_length);
-    *out_length = length;
-    if (!is_map(word) || !memchr(text, '-', length)) return text;
-    ppmi_free(context, l->rewritten);
-    l->rewritten = complete_options(context, text, length, out_length);
-    if (!l->rewritten) set_status(l, ppmi_obj_out_of_memory(l->reader));
-    return l->rewritten;
+    if (!is_understood(word)) note_ignored(l, text, word_length);
+    *out_text = text;
+}
+
+/* ppmi_obj_next_fn: the statements up to the next newmtl or the end. */
+static char *next_of_material(void *user, size_t *out_length)
+{
+    library *l = user;
+    while (l->status == PPM_STATUS_OK) {
+        char *left, *text = ppmi_obj_lines_next(&l->lines, out_length);
+        if (!text) return NULL;
+        take_statement(l, text, *out_length, &left);
+        if (left) return left;
+        if (l->name) return NULL;
+    }
+    return NULL;
+}
+
+static void forget_maps(library *l)
+{
+    for (int i = 0; i < PPMI_OBJ_MAP_COUNT; ++i) {
+        ppmi_obj_map_deinit(l->reader->context, &l->maps[i]);
+    }
 }
 
 /* ---- a library ------------------------------------------------------------------------------- */
@@ -172,6 +146,14 @@ static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
     return PPM_STATUS_OK;
 }
 
+void ppmi_obj_material_deinit(ppm_context *context, ppmi_obj_material *material)
+{
+    ppmi_obj_mtl_destroy(material->mtl);
+    for (int i = 0; i < PPMI_OBJ_MAP_COUNT; ++i) {
+        ppmi_obj_map_deinit(context, &material->maps[i]);
+    }
+}
+
 /* Reads the statements behind a newmtl; name becomes the next material's. */
 static ppm_status read_material(library *l, uint32_t index)
 {
@@ -183,9 +165,11 @@ static ppm_status read_material(library *l, uint32_t index)
     ppm_status status =
         ppmi_obj_mtl_create(r->context, l->lines.path, next_of_material, l, &material.mtl);
     material.given = l->given;
+    memcpy(material.maps, l->maps, sizeof material.maps);
+    memset(l->maps, 0, sizeof l->maps);
     bool is_kept = false;
     if (status == PPM_STATUS_OK) status = keep_material(r, name, &material, &is_kept);
-    if (!is_kept) ppmi_obj_mtl_destroy(material.mtl);
+    if (!is_kept) ppmi_obj_material_deinit(r->context, &material);
     ppmi_free(r->context, name);
     set_status(l, status);
     set_status(l, l->lines.status);
@@ -198,6 +182,7 @@ static void skip_stray(library *l)
     size_t length;
     while (!l->name && next_of_material(l, &length)) {
     }
+    forget_maps(l);
     if (l->stray > 0) {
         ppmi_log(l->reader->context, PPM_LOG_WARNING,
                  "%s: %zu statements before the first newmtl left out", l->lines.path, l->stray);
@@ -220,7 +205,7 @@ static ppm_status read_library(ppmi_obj_reader *r, const char *path)
         read_material(&l, index);
     }
     ppmi_free(r->context, l.name);
-    ppmi_free(r->context, l.rewritten);
+    forget_maps(&l);
     ppmi_obj_lines_close(&l.lines);
     return l.status;
 }
@@ -232,7 +217,7 @@ static ppm_status try_library(ppmi_obj_reader *r, const char *name, bool *out_is
 {
     char *path;
     bool is_elsewhere;
-    ppm_status status = ppmi_obj_find_file(r, "", name, &path, &is_elsewhere);
+    ppm_status status = ppmi_obj_find_file(r, r->path, name, &path, &is_elsewhere);
     *out_is_found = path != NULL;
     if (!path) return status;
     if (is_elsewhere) {
@@ -256,8 +241,9 @@ static size_t name_length(const char *names)
 static void warn_of_missing(const ppmi_obj_reader *r, const char *name)
 {
     ppmi_log(r->context, PPM_LOG_WARNING,
-             "%s: mtllib '%s' left out: there is no such file in the folder of the OBJ", r->path,
-             name);
+             "%s: mtllib '%s' left out: there is no such file in the folder of the OBJ, nor in a "
+             "texture path",
+             r->path, name);
 }
 
 /* A name; if there is no such file, each of its words. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "obj/obj_reader.h"
+#include "obj/obj_geometry.h"
 
 /* ---- order ----------------------------------------------------------------------------------- */
 
@@ -13,10 +13,11 @@ static int compare_runs(const void *a, const void *b)
     const ppmi_obj_run *x = a, *y = b;
     if (x->object != y->object) return x->object < y->object ? -1 : 1;
     if (x->material != y->material) return x->material < y->material ? -1 : 1;
+    if (x->kind != y->kind) return x->kind < y->kind ? -1 : 1;
     return x->first_face < y->first_face ? -1 : x->first_face > y->first_face;
 }
 
-/* Runs of one node and one material. */
+/* Runs of one node, one material and one kind. */
 typedef struct slice {
     const ppmi_obj_run *runs;
     size_t count;
@@ -39,32 +40,27 @@ static size_t corner_count(const ppmi_obj_reader *r, const ppmi_obj_run *run)
 
 /* ---- a primitive ----------------------------------------------------------------------------- */
 
-/* Arrays of a primitive while it is made. */
-typedef struct geometry {
-    ppmi_obj_triples vertices; /* position, uv, normal */
-    uint32_t *indices;
-    size_t triangle_count;
-    bool has_uvs, has_normals; /* of some corner */
-    bool lacks_normals;        /* of some corner */
-    float *positions, *uvs, *normals, *colors;
-} geometry;
-
-static void geometry_deinit(ppm_context *context, geometry *g)
+static void geometry_deinit(ppm_context *context, ppmi_obj_geometry *g)
 {
     ppmi_obj_triples_deinit(context, &g->vertices);
     ppmi_free(context, g->indices);
     ppmi_free(context, g->positions);
     ppmi_free(context, g->uvs);
     ppmi_free(context, g->normals);
+    ppmi_free(context, g->tangents);
     ppmi_free(context, g->colors);
 }
 
-static void survey(const ppmi_obj_reader *r, const slice *s, geometry *g)
+static void survey(const ppmi_obj_reader *r, const slice *s, ppmi_obj_geometry *g)
 {
+    const uint32_t *faces = r->faces.items;
+    g->kind = s->runs[0].kind;
     for (size_t i = 0; i < s->count; ++i) {
         const ppmi_obj_corner *corners = corners_of(r, &s->runs[i]);
         const size_t count = corner_count(r, &s->runs[i]);
-        g->triangle_count += count - 2 * (s->runs[i].end_face - s->runs[i].first_face);
+        for (size_t k = s->runs[i].first_face; k < s->runs[i].end_face; ++k) {
+            g->element_count += ppmi_obj_element_count(g->kind, faces[k]);
+        }
         for (size_t k = 0; k < count; ++k) {
             g->has_uvs = g->has_uvs || corners[k].uv >= 0;
             g->has_normals = g->has_normals || corners[k].normal >= 0;
@@ -94,36 +90,66 @@ static bool add_flat_normal(ppmi_obj_reader *r, ppmi_obj_corner *corners, uint32
     return true;
 }
 
+/* Replaces indices of corners by those of vertices. */
+static bool number_vertices(ppmi_obj_reader *r, ppmi_obj_geometry *g,
+                            const ppmi_obj_corner *corners, uint32_t *indices, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const ppmi_obj_corner *corner = &corners[indices[i]];
+        const ppmi_obj_triple key = {corner->position, corner->uv, corner->normal};
+        if (!ppmi_obj_triples_add(r->context, &g->vertices, key, &indices[i])) return false;
+    }
+    return true;
+}
+
+static size_t indices_per_element(int32_t kind)
+{
+    return kind == PPM_PRIMITIVE_POINTS ? 1 : kind == PPM_PRIMITIVE_LINES ? 2 : 3;
+}
+
 /* Triangulates a face and numbers its vertices. */
-static bool add_face(ppmi_obj_reader *r, geometry *g, ppmi_obj_corner *corners, uint32_t count,
-                     uint32_t *out)
+static bool add_face(ppmi_obj_reader *r, ppmi_obj_geometry *g, ppmi_obj_corner *corners,
+                     uint32_t count, uint32_t *out)
 {
     double normal[3] = {0.0, 0.0, 0.0};
     const bool is_mixed = g->has_normals && g->lacks_normals;
     if (count > 3 || is_mixed) ppmi_obj_face_normal(r, corners, count, normal);
+    r->tally.flat_faces += corners[0].normal < 0;
     if (is_mixed && !add_flat_normal(r, corners, count, normal)) return false;
     if (!ppmi_obj_triangulate(r->context, &r->polygons, r->positions.items, corners, count, normal,
                               out)) {
         return false;
     }
-    for (size_t i = 0; i < 3 * ((size_t)count - 2); ++i) {
-        const ppmi_obj_corner *corner = &corners[out[i]];
-        const ppmi_obj_triple key = {corner->position, corner->uv, corner->normal};
-        if (!ppmi_obj_triples_add(r->context, &g->vertices, key, &out[i])) return false;
-    }
-    return true;
+    return number_vertices(r, g, corners, out, 3 * ((size_t)count - 2));
 }
 
-static bool add_faces(ppmi_obj_reader *r, const slice *s, geometry *g)
+/* Points, or segments from each corner to the next. */
+static bool add_stroke(ppmi_obj_reader *r, ppmi_obj_geometry *g, const ppmi_obj_corner *corners,
+                       uint32_t count, uint32_t *out)
+{
+    const size_t sides = g->kind == PPM_PRIMITIVE_LINES ? 2 : 1;
+    const size_t elements = ppmi_obj_element_count(g->kind, count);
+    for (size_t i = 0; i < elements; ++i) {
+        for (size_t k = 0; k < sides; ++k) {
+            out[sides * i + k] = (uint32_t)(i + k);
+        }
+    }
+    return number_vertices(r, g, corners, out, sides * elements);
+}
+
+static bool add_faces(ppmi_obj_reader *r, const slice *s, ppmi_obj_geometry *g)
 {
     const uint32_t *faces = r->faces.items;
     uint32_t *out = g->indices;
     for (size_t i = 0; i < s->count; ++i) {
         ppmi_obj_corner *corners = corners_of(r, &s->runs[i]);
         for (size_t k = s->runs[i].first_face; k < s->runs[i].end_face; ++k) {
-            if (!add_face(r, g, corners, faces[k], out)) return false;
+            const bool ok = g->kind == PPM_PRIMITIVE_TRIANGLES
+                                ? add_face(r, g, corners, faces[k], out)
+                                : add_stroke(r, g, corners, faces[k], out);
+            if (!ok) return false;
             corners += faces[k];
-            out += 3 * ((size_t)faces[k] - 2);
+            out += indices_per_element(g->kind) * ppmi_obj_element_count(g->kind, faces[k]);
         }
     }
     return true;
@@ -135,7 +161,8 @@ static float srgb_to_linear(float x)
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
-static void write_vertex(const ppmi_obj_reader *r, ppmi_obj_triple t, size_t i, geometry *g)
+static void write_vertex(const ppmi_obj_reader *r, ppmi_obj_triple t, size_t i,
+                         ppmi_obj_geometry *g)
 {
     const float *positions = r->positions.items, *uvs = r->uvs.items, *normals = r->normals.items;
     memcpy(g->positions + 3 * i, positions + 3 * (size_t)t.a, 3 * sizeof *positions);
@@ -153,9 +180,9 @@ static void write_vertex(const ppmi_obj_reader *r, ppmi_obj_triple t, size_t i, 
     if (g->colors) g->colors[4 * i + 3] = 1.0f;
 }
 
-static bool write_vertices(ppmi_obj_reader *r, geometry *g)
+static bool write_vertices(ppmi_obj_reader *r, ppmi_obj_geometry *g)
 {
-    const size_t count = g->vertices.items.count;
+    const size_t count = g->vertex_count;
     const bool has_colors = r->colors.count > 0;
     g->positions = ppmi_alloc(r->context, count, 3 * sizeof *g->positions);
     if (g->has_uvs) g->uvs = ppmi_alloc(r->context, count, 2 * sizeof *g->uvs);
@@ -171,39 +198,72 @@ static bool write_vertices(ppmi_obj_reader *r, geometry *g)
     return true;
 }
 
-static void describe(const geometry *g, ppm_material_id material, ppm_primitive_desc *out)
+static void describe(ppmi_obj_reader *r, const ppmi_obj_geometry *g, ppm_material_id material,
+                     ppm_primitive_desc *out)
 {
-    *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertices.items.count,
-                                .triangle_count = (uint32_t)g->triangle_count,
+    const bool is_stroke = g->kind != PPM_PRIMITIVE_TRIANGLES;
+    *out = (ppm_primitive_desc){.vertex_count = (uint32_t)g->vertex_count,
+                                .triangle_count = is_stroke ? 0 : (uint32_t)g->element_count,
                                 .positions = g->positions,
                                 .normals = g->normals,
+                                .tangents = g->tangents,
                                 .uvs = {g->uvs},
                                 .colors = g->colors,
                                 .indices = g->indices,
-                                .material = material};
+                                .material = material,
+                                .kind = g->kind,
+                                .element_count = is_stroke ? (uint32_t)g->element_count : 0,
+                                .radius_m = is_stroke ? ppmi_obj_line_radius(r) : 0.0f};
 }
 
-static ppm_status make_primitive(ppmi_obj_reader *r, const slice *s, geometry *g,
+static ppm_status make_arrays(ppmi_obj_reader *r, const slice *s, bool needs_tangents,
+                              ppmi_obj_geometry *g)
+{
+    g->indices =
+        ppmi_alloc(r->context, g->element_count, indices_per_element(g->kind) * sizeof *g->indices);
+    if (!g->indices || !add_faces(r, s, g)) return ppmi_obj_out_of_memory(r);
+    g->vertex_count = g->vertices.items.count;
+    if (!write_vertices(r, g)) return ppmi_obj_out_of_memory(r);
+    /* no longer needed, and as large as what is */
+    ppmi_obj_triples_deinit(r->context, &g->vertices);
+    if (needs_tangents && g->normals && g->uvs && !ppmi_obj_add_tangents(r->context, g)) {
+        return ppmi_obj_out_of_memory(r);
+    }
+    return PPM_STATUS_OK;
+}
+
+static ppm_status make_primitive(ppmi_obj_reader *r, const slice *s, ppmi_obj_geometry *g,
                                  ppm_primitive_desc *out)
 {
     ppm_material_id material = 0;
+    bool needs_tangents = false;
     const uint32_t used = s->runs[0].material;
-    const ppm_status status =
-        used > 0 ? ppmi_obj_use_material(r, used - 1, &material) : PPM_STATUS_OK;
+    ppm_status status =
+        used > 0 ? ppmi_obj_use_material(r, used - 1, &material, &needs_tangents) : PPM_STATUS_OK;
     if (status != PPM_STATUS_OK) return status;
     survey(r, s, g);
-    if (g->triangle_count > UINT32_MAX / 3) {
+    if (g->element_count > UINT32_MAX / 3) {
         return ppmi_fail(r->context, PPM_STATUS_INPUT_UNSUPPORTED,
                          "%s: '%s' has more than 2^32 corners of one material", r->path,
                          ppmi_obj_names_get(&r->objects, s->runs[0].object));
     }
-    g->indices = ppmi_alloc(r->context, g->triangle_count, 3 * sizeof *g->indices);
-    if (!g->indices || !add_faces(r, s, g)) return ppmi_obj_out_of_memory(r);
-    if (!write_vertices(r, g)) return ppmi_obj_out_of_memory(r);
-    describe(g, material, out);
-    /* no longer needed, and as large as what is */
-    ppmi_obj_triples_deinit(r->context, &g->vertices);
-    return PPM_STATUS_OK;
+    status = make_arrays(r, s, needs_tangents && g->kind == PPM_PRIMITIVE_TRIANGLES, g);
+    if (status == PPM_STATUS_OK) describe(r, g, material, out);
+    return status;
+}
+
+/* ---- the transform --------------------------------------------------------------------------- */
+
+/* To metres with +Y up: (x, y, z) of a file with +Z up becomes (x, z, -y). */
+static void write_transform(const ppm_import_options *options, float out[16])
+{
+    const float unit = options->unit_scale > 0.0f ? options->unit_scale : 1.0f;
+    const bool is_z_up = options->up == PPM_UP_Z;
+    memset(out, 0, 16 * sizeof *out);
+    out[0] = unit;
+    out[is_z_up ? 6 : 5] = is_z_up ? -unit : unit;
+    out[is_z_up ? 9 : 10] = unit;
+    out[15] = 1.0f;
 }
 
 /* ---- a node ---------------------------------------------------------------------------------- */
@@ -219,40 +279,38 @@ static ppm_status add_node(ppmi_obj_reader *r, uint32_t object, const ppm_primit
                                 .primitives = descs};
     ppm_instance_desc instance = {.size = sizeof instance, .name = mesh.name};
     ppm_instance_id id;
-    for (int i = 0; i < 4; ++i) {
-        instance.transform[5 * i] = 1.0f;
-    }
+    write_transform(r->options, instance.transform);
     const ppm_status status = ppm_scene_add_mesh(r->scene, &mesh, &instance.mesh);
     return status == PPM_STATUS_OK ? ppm_scene_add_instance(r->scene, &instance, &id) : status;
 }
 
-static size_t same_material(const ppmi_obj_run *runs, size_t count)
+static size_t same_part(const ppmi_obj_run *runs, size_t count)
 {
     size_t i = 1;
-    while (i < count && runs[i].material == runs[0].material) {
+    while (i < count && runs[i].material == runs[0].material && runs[i].kind == runs[0].kind) {
         ++i;
     }
     return i;
 }
 
-static size_t count_materials(const ppmi_obj_run *runs, size_t count)
+static size_t count_parts(const ppmi_obj_run *runs, size_t count)
 {
-    size_t materials = 0;
-    for (size_t i = 0; i < count; i += same_material(runs + i, count - i)) {
-        ++materials;
+    size_t parts = 0;
+    for (size_t i = 0; i < count; i += same_part(runs + i, count - i)) {
+        ++parts;
     }
-    return materials;
+    return parts;
 }
 
 static ppm_status emit_object(ppmi_obj_reader *r, const ppmi_obj_run *runs, size_t count)
 {
-    const size_t most = count_materials(runs, count);
-    geometry *all = ppmi_alloc_zeroed(r->context, most, sizeof *all);
+    const size_t most = count_parts(runs, count);
+    ppmi_obj_geometry *all = ppmi_alloc_zeroed(r->context, most, sizeof *all);
     ppm_primitive_desc *descs = ppmi_alloc(r->context, most, sizeof *descs);
     ppm_status status = all && descs ? PPM_STATUS_OK : ppmi_obj_out_of_memory(r);
     size_t done = 0;
     for (size_t i = 0; i < count && status == PPM_STATUS_OK; ++done) {
-        const slice s = {runs + i, same_material(runs + i, count - i)};
+        const slice s = {runs + i, same_part(runs + i, count - i)};
         status = make_primitive(r, &s, &all[done], &descs[done]);
         i += s.count;
     }

@@ -33,9 +33,8 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* The angle at a corner, 0 .. pi; 0 where an edge has no length. */
-static double corner_angle(const ppmi_obj_reader *r, const ppmi_obj_corner *corners, size_t count,
-                           size_t i)
+double ppmi_obj_corner_angle(const ppmi_obj_reader *r, const ppmi_obj_corner *corners, size_t count,
+                             size_t i)
 {
     const float *p = position_of(r, &corners[i]);
     const float *q[2] = {position_of(r, &corners[(i + 1) % count]),
@@ -83,7 +82,7 @@ static bool add_face(ppmi_obj_reader *r, sums *s, ppmi_obj_corner *corners, size
         }
         if (index >= INT32_MAX - r->normals.count) return false;
         corners[i].normal = (int32_t)(r->normals.count + index);
-        const double weight = size > 0.0 ? corner_angle(r, corners, count, i) / size : 0.0;
+        const double weight = size > 0.0 ? ppmi_obj_corner_angle(r, corners, count, i) / size : 0.0;
         double *sum = (double *)s->vectors.items + 3 * (size_t)index;
         for (int k = 0; k < 3 && isfinite(weight * size); ++k) {
             sum[k] += weight * normal[k];
@@ -105,13 +104,12 @@ static bool add_run(ppmi_obj_reader *r, sums *s, const ppmi_obj_run *run)
     return true;
 }
 
-static bool append_normals(ppmi_obj_reader *r, const sums *s)
+bool ppmi_obj_append_normals(ppmi_obj_reader *r, const double *vectors, size_t count)
 {
-    if (s->vectors.count == 0) return true;
-    const double *vectors = s->vectors.items;
-    float *normals = ppmi_obj_push(r->context, &r->normals, s->vectors.count, 3 * sizeof *normals);
+    if (count == 0) return true;
+    float *normals = ppmi_obj_push(r->context, &r->normals, count, 3 * sizeof *normals);
     if (!normals) return false;
-    for (size_t i = 0; i < s->vectors.count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         const double size = length(vectors + 3 * i);
         for (size_t k = 0; k < 3; ++k) {
             normals[3 * i + k] = (float)(size > 0.0 ? vectors[3 * i + k] / size : 0.0);
@@ -126,9 +124,10 @@ ppm_status ppmi_obj_smooth_normals(ppmi_obj_reader *r)
     bool ok = true;
     const ppmi_obj_run *runs = r->runs.items;
     for (size_t i = 0; i < r->runs.count && ok; ++i) {
-        if (runs[i].smoothing != 0) ok = add_run(r, &s, &runs[i]);
+        const bool is_smooth = runs[i].kind == PPM_PRIMITIVE_TRIANGLES && runs[i].smoothing != 0;
+        if (is_smooth) ok = add_run(r, &s, &runs[i]);
     }
-    ok = ok && append_normals(r, &s);
+    ok = ok && ppmi_obj_append_normals(r, s.vectors.items, s.vectors.count);
     ppmi_obj_triples_deinit(r->context, &s.keys);
     ppmi_obj_array_deinit(r->context, &s.vectors);
     return ok ? PPM_STATUS_OK : ppmi_obj_out_of_memory(r);

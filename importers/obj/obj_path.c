@@ -73,59 +73,132 @@ static bool resolve(char *out, size_t at, const char *name)
     return stat(out, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+/* A place to look in: nothing above root is read. */
+typedef struct place {
+    const char *root; /* length bytes: "" or with a slash at its end */
+    size_t root_length;
+    const char *below; /* a folder in it, in the same form */
+    size_t below_length;
+    bool needs_slash; /* the root was written without one */
+} place;
+
 /* One search, in its own memory. */
 typedef struct search {
-    const char *obj;    /* path of the OBJ */
-    const char *folder; /* of the library, relative to it */
-    char *name;         /* with slashes */
-    char *wanted;       /* what is tried: folder and name, relative to the OBJ's folder */
-    char *path;         /* what was found */
+    const ppmi_obj_reader *reader;
+    char *name;   /* with slashes */
+    char *wanted; /* what is tried: relative to the root */
+    char *path;   /* what was found */
 } search;
 
-/* Tries first_part + rest, which must stay inside the OBJ's folder. */
-static bool try_path(search *s, const char *first_part, const char *rest)
+/* Tries a name in a place, which must not climb out of its root. */
+static bool try_name(search *s, const place *where, const char *name)
 {
-    const size_t first = strlen(first_part), root = ppmi_obj_folder_length(s->obj);
-    memcpy(s->wanted, first_part, first);
-    strcpy(s->wanted + first, rest);
-    if (!stays_inside(s->wanted)) return false;
-    memcpy(s->path, s->obj, root);
-    return resolve(s->path, root, s->wanted);
+    memcpy(s->wanted, where->below, where->below_length);
+    strcpy(s->wanted + where->below_length, name);
+    if (!s->reader->options->allow_outside && !stays_inside(s->wanted)) return false;
+    size_t at = where->root_length;
+    memcpy(s->path, where->root, at);
+    if (where->needs_slash) s->path[at++] = '/';
+    return resolve(s->path, at, s->wanted);
 }
 
-static bool find(search *s)
+/* The rest of a path without its first part; "" behind the last one. */
+static const char *without_first_part(const char *path)
 {
-    const char *base = s->name + ppmi_obj_folder_length(s->name);
-    if (!is_absolute(s->name)) {
-        if (try_path(s, s->folder, s->name) || try_path(s, "", s->name)) return true;
+    path += strcspn(path, "/");
+    while (*path == '/') {
+        ++path;
     }
-    return try_path(s, s->folder, base) || try_path(s, "", base);
+    return path;
 }
 
-/* Whether path is what folder and name say, letter by letter. */
-static bool is_as_written(const search *s)
+static bool try_shorter(search *s, const place *places, size_t count, const char *name)
 {
-    const char *relative = s->path + ppmi_obj_folder_length(s->obj);
-    const size_t length = strlen(s->folder);
-    return strncmp(relative, s->folder, length) == 0 && strcmp(relative + length, s->name) == 0;
+    while (*(name = without_first_part(name))) {
+        for (size_t i = 0; i < count; ++i) {
+            if (try_name(s, &places[i], name)) return true;
+        }
+    }
+    return false;
 }
 
-ppm_status ppmi_obj_find_file(ppmi_obj_reader *r, const char *folder, const char *name,
+/* As the name says, then by ever shorter ends of it. */
+static bool try_places(search *s, const place *places, size_t count)
+{
+    for (size_t i = 0; i < count && !is_absolute(s->name); ++i) {
+        if (try_name(s, &places[i], s->name)) return true;
+    }
+    return try_shorter(s, places, count, s->name);
+}
+
+/* The folder of the file that names it: below that of the OBJ, or one of a texture path. */
+static place folder_place(const ppmi_obj_reader *r, const char *folder, size_t length)
+{
+    const size_t root = ppmi_obj_folder_length(r->path);
+    const bool is_below = length >= root && memcmp(folder, r->path, root) == 0;
+    if (!is_below) return (place){.root = folder, .root_length = length, .below = ""};
+    return (place){.root = r->path,
+                   .root_length = root,
+                   .below = folder + root,
+                   .below_length = length - root};
+}
+
+static bool find(search *s, const place *beside)
+{
+    const ppm_import_options *options = s->reader->options;
+    if (options->allow_outside && s->name[0] == '/' && resolve(s->path, 0, s->name)) return true;
+    if (try_places(s, beside, 2)) return true;
+    for (uint32_t i = 0; i < options->texture_folder_count; ++i) {
+        const char *folder = options->texture_folders[i];
+        const size_t length = strlen(folder);
+        const place there = {.root = folder,
+                             .root_length = length,
+                             .below = "",
+                             .needs_slash = length > 0 && folder[length - 1] != '/'};
+        if (try_places(s, &there, 1)) return true;
+    }
+    return false;
+}
+
+/* Whether the path found is what folder and name say, letter by letter. */
+static bool is_as_written(const search *s, const char *folder, size_t length)
+{
+    if (s->name[0] == '/') return strcmp(s->path, s->name) == 0;
+    return strncmp(s->path, folder, length) == 0 && strcmp(s->path + length, s->name) == 0;
+}
+
+/* The longest folder that a name may be looked for in. */
+static size_t longest_folder(const ppmi_obj_reader *r, size_t length)
+{
+    const ppm_import_options *options = r->options;
+    const size_t root = ppmi_obj_folder_length(r->path);
+    size_t most = length > root ? length : root;
+    for (uint32_t i = 0; i < options->texture_folder_count; ++i) {
+        const size_t other = strlen(options->texture_folders[i]) + 1;
+        most = other > most ? other : most;
+    }
+    return most;
+}
+
+ppm_status ppmi_obj_find_file(ppmi_obj_reader *r, const char *beside, const char *name,
                               char **out_path, bool *out_is_elsewhere)
 {
-    const size_t name_size = strlen(name) + 1, wanted_size = name_size + strlen(folder);
-    search s = {.obj = r->path, .folder = folder};
+    const size_t name_size = strlen(name) + 1, length = ppmi_obj_folder_length(beside);
+    const size_t size = name_size + longest_folder(r, length);
+    const place places[2] = {folder_place(r, beside, length),
+                             folder_place(r, r->path, ppmi_obj_folder_length(r->path))};
+    search s = {.reader = r};
     *out_path = NULL;
     s.name = ppmi_alloc(r->context, name_size, 1);
-    s.wanted = ppmi_alloc(r->context, wanted_size, 1);
-    s.path = ppmi_alloc(r->context, wanted_size + ppmi_obj_folder_length(r->path), 1);
+    s.wanted = ppmi_alloc(r->context, size, 1);
+    s.path = ppmi_alloc(r->context, size, 1);
     const bool ok = s.name && s.wanted && s.path;
     if (ok) {
         for (size_t i = 0; i < name_size; ++i) {
             s.name[i] = (char)(name[i] == '\\' ? '/' : name[i]);
         }
-        if (find(&s)) {
-            *out_is_elsewhere = !is_as_written(&s);
+        if (find(&s, places)) {
+            *out_is_elsewhere = !is_as_written(&s, beside, length);
             *out_path = s.path;
             s.path = NULL;
         }

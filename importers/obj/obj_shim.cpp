@@ -9,7 +9,6 @@
 #include <new>
 #include <streambuf>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <tiny_obj_loader.h>
@@ -92,32 +91,14 @@ void parse(const ppmi_obj_events *events)
     tinyobj::LoadObjWithCallback(stream, callbacks, &receiver);
 }
 
-// The C struct and what owns its strings.
-struct Material : ppmi_obj_mtl {
-    tinyobj::material_t from;
-};
-
 void copy3(const float *from, float *out)
 {
     std::copy(from, from + 3, out);
 }
 
-ppmi_obj_map copy_map(const std::string &name, const tinyobj::texture_option_t &o)
+ppmi_obj_mtl *copy_material(const tinyobj::material_t &from)
 {
-    return {name.c_str(),
-            {o.origin_offset[0], o.origin_offset[1]},
-            {o.scale[0], o.scale[1]},
-            {o.turbulence[0], o.turbulence[1]},
-            o.brightness,
-            o.contrast,
-            o.bump_multiplier,
-            o.clamp,
-            o.colorspace == "linear"};
-}
-
-void copy_material(Material *m)
-{
-    const tinyobj::material_t &from = m->from;
+    auto m = std::make_unique<ppmi_obj_mtl>();
     copy3(from.diffuse, m->diffuse);
     copy3(from.specular, m->specular);
     copy3(from.transmittance, m->transmittance);
@@ -127,27 +108,23 @@ void copy_material(Material *m)
     m->dissolve = from.dissolve;
     m->roughness = from.roughness;
     m->metallic = from.metallic;
+    m->sheen = from.sheen;
+    m->clearcoat = from.clearcoat_thickness;
+    m->clearcoat_roughness = from.clearcoat_roughness;
+    m->anisotropy = from.anisotropy;
+    m->anisotropy_rotation = from.anisotropy_rotation;
     m->illum = from.illum;
-    m->map_kd = copy_map(from.diffuse_texname, from.diffuse_texopt);
-    m->map_ks = copy_map(from.specular_texname, from.specular_texopt);
-    m->map_ke = copy_map(from.emissive_texname, from.emissive_texopt);
-    m->map_d = copy_map(from.alpha_texname, from.alpha_texopt);
-    m->map_pr = copy_map(from.roughness_texname, from.roughness_texopt);
-    m->map_pm = copy_map(from.metallic_texname, from.metallic_texopt);
-    m->norm = copy_map(from.normal_texname, from.normal_texopt);
+    return m.release();
 }
 
 const ppmi_obj_mtl *load_material(ppmi_obj_next_fn next, void *user)
 {
-    auto material = std::make_unique<Material>();
     Statements buffer(next, user);
     std::istream stream(&buffer);
     std::map<std::string, int> names;
     std::vector<tinyobj::material_t> materials;
     tinyobj::LoadMtl(&names, &materials, &stream, nullptr, nullptr);
-    material->from = std::move(materials.at(0)); // it makes one even of no statements
-    copy_material(material.get());
-    return material.release();
+    return copy_material(materials.at(0)); // it makes one even of no statements
 }
 
 // Runs body; whatever it throws becomes a status.
@@ -181,7 +158,7 @@ ppm_status ppmi_obj_mtl_create(ppm_context *context, const char *file, ppmi_obj_
 
 void ppmi_obj_mtl_destroy(const ppmi_obj_mtl *mtl) noexcept
 {
-    delete static_cast<const Material *>(mtl);
+    delete mtl;
 }
 
 size_t ppmi_obj_parse_floats(const char *text, size_t length, float *out, size_t count) noexcept

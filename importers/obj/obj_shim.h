@@ -37,22 +37,12 @@ typedef struct ppmi_obj_events {
 ppm_status ppmi_obj_parse(ppm_context *context, const char *file,
                           const ppmi_obj_events *events) PPMI_NOEXCEPT;
 
-/* A map_ statement: a file name and its options. */
-typedef struct ppmi_obj_map {
-    const char *name; /* as written; "" when there is none */
-    float offset[2], scale[2], turbulence[2];
-    float base, gain; /* -mm */
-    float bump;       /* -bm */
-    bool clamp;
-    bool is_linear; /* -colorspace linear */
-} ppmi_obj_map;
-
-/* One material; obj_library.c knows which statements there were. */
+/* The values of one material; obj_library.c knows which statements there were, and reads maps. */
 typedef struct ppmi_obj_mtl {
     float diffuse[3], specular[3], transmittance[3], emission[3];
     float shininess, ior, dissolve, roughness, metallic;
+    float sheen, clearcoat, clearcoat_roughness, anisotropy, anisotropy_rotation;
     int32_t illum;
-    ppmi_obj_map map_kd, map_ks, map_ke, map_d, map_pr, map_pm, norm;
 } ppmi_obj_mtl;
 
 /* Reads one material: its statements without newmtl. *out_mtl is valid until destroyed. */

@@ -131,7 +131,7 @@ static bool resolve(const ppmi_obj_reader *r, int32_t *index, size_t count, ppmi
 {
     if (*index > 0) {
         if ((size_t)*index > count && *index > reach->most) {
-            *reach = (ppmi_obj_reach){*index, r->lines.number};
+            *reach = (ppmi_obj_reach){*index, r->lines.number, r->kind};
         }
         --*index;
         return true;
@@ -145,16 +145,30 @@ static bool resolve(const ppmi_obj_reader *r, int32_t *index, size_t count, ppmi
     return absolute >= 0;
 }
 
+static const char *kind_name(int32_t kind)
+{
+    return kind == PPM_PRIMITIVE_TRIANGLES ? "face"
+           : kind == PPM_PRIMITIVE_LINES   ? "line"
+                                           : "point";
+}
+
+static void invalid_index(ppmi_obj_reader *r, const char *what)
+{
+    if (r->status != PPM_STATUS_OK) return;
+    r->status = ppmi_fail(r->context, PPM_STATUS_INPUT_INVALID, "%s: line %zu: a %s has %s",
+                          r->path, r->lines.number, kind_name(r->kind), what);
+}
+
 static bool resolve_corner(ppmi_obj_reader *r, ppmi_obj_corner *corner)
 {
     if (corner->position == 0) {
-        invalid(r, "a face has an index of 0 or one that is not a number");
+        invalid_index(r, "an index of 0 or one that is not a number");
         return false;
     }
     if (!resolve(r, &corner->position, r->positions.count, &r->position_reach) ||
         !resolve(r, &corner->uv, r->uvs.count, &r->uv_reach) ||
         !resolve(r, &corner->normal, r->normals.count, &r->normal_reach)) {
-        invalid(r, "a face has a negative index that points before the first element");
+        invalid_index(r, "a negative index that points before the first element");
         return false;
     }
     return true;
@@ -186,6 +200,7 @@ static bool begin_run(ppmi_obj_reader *r)
     *run = (ppmi_obj_run){.object = object,
                           .material = r->material,
                           .smoothing = r->smoothing,
+                          .kind = r->kind,
                           .first_face = r->faces.count,
                           .first_corner = r->corners.count,
                           .end_face = r->faces.count};
@@ -193,14 +208,12 @@ static bool begin_run(ppmi_obj_reader *r)
     return true;
 }
 
-static void receive_face(void *user, const ppmi_obj_corner *corners, size_t count)
+/* Adds a face, a line or a row of points. */
+static void add_element(ppmi_obj_reader *r, int32_t kind, const ppmi_obj_corner *corners,
+                        size_t count)
 {
-    ppmi_obj_reader *r = user;
-    if (r->status != PPM_STATUS_OK) return;
-    if (count < 3) {
-        r->tally.small_faces++;
-        return;
-    }
+    if (kind != r->kind) r->is_new_run = true;
+    r->kind = kind;
     const bool has_run = !r->is_new_run || begin_run(r);
     uint32_t *face = has_run ? ppmi_obj_push(r->context, &r->faces, 1, sizeof *face) : NULL;
     ppmi_obj_corner *added =
@@ -217,13 +230,47 @@ static void receive_face(void *user, const ppmi_obj_corner *corners, size_t coun
     }
 }
 
+static void receive_face(void *user, const ppmi_obj_corner *corners, size_t count)
+{
+    ppmi_obj_reader *r = user;
+    if (r->status != PPM_STATUS_OK) return;
+    if (count < 3) {
+        r->tally.small_faces++;
+        return;
+    }
+    if (r->smoothing != 0) r->has_smoothing = true;
+    add_element(r, PPM_PRIMITIVE_TRIANGLES, corners, count);
+}
+
+/* An l or p statement, without its word. */
+static void read_element(ppmi_obj_reader *r, int32_t kind, char *text, size_t length)
+{
+    bool is_valid;
+    const char *comment = memchr(text, '#', length);
+    if (comment) ppmi_obj_cut(text, &length, (size_t)(comment - text));
+    if (!ppmi_obj_read_corners(r, text, length, &r->element, &is_valid)) {
+        out_of_memory(r);
+        return;
+    }
+    const size_t count = r->element.count;
+    if (!is_valid) {
+        invalid(r, kind == PPM_PRIMITIVE_LINES
+                       ? "a line has an index that is not a number of at most nine digits"
+                       : "a point has an index that is not a number of at most nine digits");
+    } else if (count >= (kind == PPM_PRIMITIVE_LINES ? 2u : 1u)) {
+        add_element(r, kind, r->element.items, count);
+    } else {
+        r->tally.short_lines++;
+    }
+}
+
 static ppm_status check_reach(ppmi_obj_reader *r, const ppmi_obj_reach *reach, size_t count,
                               const char *what)
 {
     if (reach->most <= 0 || (size_t)reach->most <= count) return PPM_STATUS_OK;
     return ppmi_fail(r->context, PPM_STATUS_INPUT_INVALID,
-                     "%s: line %zu: a face has %s %d, of %zu in the file", r->path, reach->line,
-                     what, (int)reach->most, count);
+                     "%s: line %zu: a %s has %s %d, of %zu in the file", r->path, reach->line,
+                     kind_name(reach->kind), what, (int)reach->most, count);
 }
 
 /* Programs that strip texture vertices or normals may leave their indices behind: where there are
@@ -349,7 +396,7 @@ static void note_unknown(ppmi_obj_reader *r, const char *word)
 }
 
 /* What is not for the parser. word ends with a zero; one that was longer is cut. */
-static void read_state(ppmi_obj_reader *r, const char *word, const char *text, size_t length)
+static void read_state(ppmi_obj_reader *r, const char *word, char *text, size_t length)
 {
     if (strcmp(word, "usemtl") == 0) {
         set_material(r, text, length);
@@ -363,9 +410,9 @@ static void read_state(ppmi_obj_reader *r, const char *word, const char *text, s
     } else if (strcmp(word, "mtllib") == 0) {
         note_libraries(r, text, length);
     } else if (strcmp(word, "l") == 0) {
-        r->tally.lines++;
+        read_element(r, PPM_PRIMITIVE_LINES, text, length);
     } else if (strcmp(word, "p") == 0) {
-        r->tally.points++;
+        read_element(r, PPM_PRIMITIVE_POINTS, text, length);
     } else if (is_free_form(word)) {
         r->tally.free_forms++;
     } else {

@@ -1,30 +1,21 @@
-/* Maps of materials: the image, which is read once for each role, and its options. What is missing
- * or broken is left out with a warning, and the material's value alone is used. */
+/* Maps of materials: their images, each of which is read or made once for each use of its kind, and
+ * their options. What is missing or broken is left out with a warning, and the material's value
+ * alone is used. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "obj/obj_reader.h"
 
-/* What a map is for, in messages. */
-typedef struct place {
-    const ppmi_obj_reader *reader;
-    const ppmi_obj_material *material;
-    const char *statement;
-} place;
+/* ---- messages -------------------------------------------------------------------------------- */
 
-static const char *library_path(const place *p)
+static void warn(const ppmi_obj_reader *r, const ppmi_obj_material *material, int32_t map,
+                 const char *reason)
 {
-    return ppmi_obj_names_get(&p->reader->libraries, p->material->library);
+    ppmi_log(r->context, PPM_LOG_WARNING, "%s: line %zu: %s '%s': %s",
+             ppmi_obj_names_get(&r->libraries, material->library), material->maps[map].line,
+             ppmi_obj_map_word(map), material->maps[map].name, reason);
 }
-
-static void warn(const place *p, const char *name, const char *reason)
-{
-    ppmi_log(p->reader->context, PPM_LOG_WARNING, "%s: line %zu: %s '%s': %s", library_path(p),
-             p->material->line, p->statement, name, reason);
-}
-
-/* ---- images ---------------------------------------------------------------------------------- */
 
 /* Statuses after which the import goes on without the image. */
 static bool is_about_input(ppm_status status)
@@ -33,34 +24,41 @@ static bool is_about_input(ppm_status status)
            status == PPM_STATUS_INPUT_UNSUPPORTED;
 }
 
-static ppm_status add_image(ppmi_obj_reader *r, const place *p, const char *folder,
-                            const char *name, int32_t role, ppm_image_id *out_id)
+/* The file of a map, the caller's to free; NULL, after a warning, if there is none. */
+static ppm_status locate(ppmi_obj_reader *r, const ppmi_obj_material *material, int32_t map,
+                         char **out_path)
 {
-    char *path = NULL;
     bool is_elsewhere = false;
-    ppm_status status = ppmi_obj_find_file(r, folder, name, &path, &is_elsewhere);
+    char reason[512];
+    const char *library = ppmi_obj_names_get(&r->libraries, material->library);
+    const ppm_status status =
+        ppmi_obj_find_file(r, library, material->maps[map].name, out_path, &is_elsewhere);
     if (status != PPM_STATUS_OK) return status;
-    if (!path) {
-        warn(p, name, "left out: there is no such file in the folder of the OBJ");
-        return PPM_STATUS_OK;
+    if (!*out_path) {
+        warn(r, material, map,
+             "left out: there is no such file in the folder of the OBJ, nor in a texture path");
+    } else if (is_elsewhere) {
+        snprintf(reason, sizeof reason, "read from %s", *out_path);
+        warn(r, material, map, reason);
     }
-    if (is_elsewhere) {
-        ppmi_log(r->context, PPM_LOG_WARNING, "%s: line %zu: %s '%s': read from %s",
-                 library_path(p), p->material->line, p->statement, name, path);
-    }
-    const ppm_image_desc desc = {.size = sizeof desc, .name = path, .role = role, .path = path};
-    status = ppm_scene_add_image(r->scene, &desc, out_id);
-    ppmi_free(r->context, path);
-    if (!is_about_input(status)) return status;
-    warn(p, name, "left out: see the message above");
     return PPM_STATUS_OK;
 }
 
-/* The image of a name in a role, from the table if it was asked for before. */
-static ppm_status find_or_add_image(ppmi_obj_reader *r, const place *p, char *key,
-                                    size_t folder_length, const char *name, int32_t role,
-                                    ppm_image_id *out_id)
+/* ---- images, once ---------------------------------------------------------------------------- */
+
+/* What makes an image that is not there yet. */
+typedef struct request {
+    ppmi_obj_reader *reader;
+    const ppmi_obj_material *material;
+    int32_t map, role;
+    const ppmi_obj_mixture *mixture;
+    ppm_status (*make)(const struct request *request, ppm_image_id *out_id);
+} request;
+
+/* The image of a key: from the table, or made and put there. */
+static ppm_status find_or_make(const request *q, const char *key, ppm_image_id *out_id)
 {
+    ppmi_obj_reader *r = q->reader;
     uint32_t index;
     const uint32_t known = ppmi_obj_names_count(&r->images);
     if (!ppmi_obj_names_add(r->context, &r->images, key, strlen(key), &index)) {
@@ -73,22 +71,35 @@ static ppm_status find_or_add_image(ppmi_obj_reader *r, const place *p, char *ke
     ppm_image_id *id = ppmi_obj_push(r->context, &r->image_ids, 1, sizeof *id);
     if (!id) return ppmi_obj_out_of_memory(r);
     *id = 0;
-    key[2 + folder_length] = 0; /* now the folder in it is a string */
-    const ppm_status status = add_image(r, p, key + 2, name, role, id);
+    const ppm_status status = q->make(q, id);
     *out_id = *id;
     return status;
 }
 
-static ppm_status use_image(ppmi_obj_reader *r, const place *p, const char *name, int32_t role,
-                            ppm_image_id *out_id)
+/* What the pixels of a map depend on, but for where the library lies. */
+static size_t describe_map(const ppmi_obj_map *map, char *out, size_t size)
 {
-    const char *library = library_path(p) + ppmi_obj_folder_length(r->path);
-    const size_t folder_length = ppmi_obj_folder_length(library);
-    const size_t size = folder_length + strlen(name) + 4;
-    char *key = ppmi_alloc(r->context, size, 1); /* "role|folder|name" */
+    if (!ppmi_obj_map_is_named(map)) return (size_t)snprintf(out, size, "-|");
+    return (size_t)snprintf(out, size, "%d %d %d %g %g %s|", map->channel, map->is_linear,
+                            map->clamp, (double)map->base, (double)map->gain, map->name);
+}
+
+static ppm_status use_image(const request *q, const char *kind, ppm_image_id *out_id)
+{
+    ppmi_obj_reader *r = q->reader;
+    const ppmi_obj_map none = {0}, *maps = q->material->maps;
+    const ppmi_obj_map *first = &maps[q->map], *second = &none;
+    if (q->mixture && q->mixture->maps[1] >= 0) second = &maps[q->mixture->maps[1]];
+    const char *library = ppmi_obj_names_get(&r->libraries, q->material->library);
+    const int folder = (int)ppmi_obj_folder_length(library);
+    const size_t size = strlen(kind) + (size_t)folder + (first->name ? strlen(first->name) : 0) +
+                        (second->name ? strlen(second->name) : 0) + 256;
+    char *key = ppmi_alloc(r->context, size, 1);
     if (!key) return ppmi_obj_out_of_memory(r);
-    snprintf(key, size, "%d|%.*s|%s", (int)role, (int)folder_length, library, name);
-    const ppm_status status = find_or_add_image(r, p, key, folder_length, name, role, out_id);
+    size_t used = (size_t)snprintf(key, size, "%s %d|%.*s|", kind, (int)q->role, folder, library);
+    used += describe_map(first, key + used, size - used);
+    describe_map(second, key + used, size - used);
+    const ppm_status status = find_or_make(q, key, out_id);
     ppmi_free(r->context, key);
     return status;
 }
@@ -107,32 +118,130 @@ static void apply_transform(const ppmi_obj_map *map, ppm_texture *out)
     }
 }
 
-static void warn_of_options(const place *p, const ppmi_obj_map *map, const char *name)
+static bool is_placed_alike(const ppmi_obj_map *a, const ppmi_obj_map *b)
 {
-    if (map->turbulence[0] != 0.0f || map->turbulence[1] != 0.0f) {
-        warn(p, name, "-t (turbulence) has no effect");
-    }
-    if (map->base != 0.0f || map->gain != 1.0f) warn(p, name, "-mm has no effect");
+    return memcmp(a->scale, b->scale, sizeof a->scale) == 0 &&
+           memcmp(a->offset, b->offset, sizeof a->offset) == 0 && a->clamp == b->clamp;
 }
 
-ppm_status ppmi_obj_use_map(ppmi_obj_reader *r, const ppmi_obj_material *material,
-                            const ppmi_obj_map *map, const char *statement, int32_t role,
-                            ppm_texture *out_texture)
+static void fill_texture(const request *q, ppm_image_id image, int32_t map, ppm_texture *out)
 {
-    const place p = {r, material, statement};
-    ppm_image_id image = 0;
-    *out_texture = (ppm_texture){0};
-    if (map->name[0] == 0) return PPM_STATUS_OK;
-    char *name = ppmi_obj_utf8(r->context, map->name, strlen(map->name));
-    if (!name) return ppmi_obj_out_of_memory(r);
-    const ppm_status status =
-        use_image(r, &p, name, map->is_linear ? PPM_IMAGE_DATA : role, &image);
-    if (status == PPM_STATUS_OK && image != 0) {
-        out_texture->image = image;
-        out_texture->wrap_u = out_texture->wrap_v = map->clamp ? PPM_WRAP_CLAMP : PPM_WRAP_REPEAT;
-        apply_transform(map, out_texture);
-        warn_of_options(&p, map, name);
+    const ppmi_obj_map *from = &q->material->maps[map];
+    if (image == 0) return;
+    out->image = image;
+    out->wrap_u = out->wrap_v = from->clamp ? PPM_WRAP_CLAMP : PPM_WRAP_REPEAT;
+    out->filter = from->is_sharp ? PPM_FILTER_NEAREST : PPM_FILTER_LINEAR;
+    apply_transform(from, out);
+    if (from->has_turbulence) {
+        warn(q->reader, q->material, map, "-t (turbulence) has no effect");
     }
-    ppmi_free(r->context, name);
+}
+
+/* ---- a map alone ----------------------------------------------------------------------------- */
+
+static ppm_status make_plain(const request *q, ppm_image_id *out_id)
+{
+    char *path = NULL;
+    ppm_status status = locate(q->reader, q->material, q->map, &path);
+    if (status != PPM_STATUS_OK || !path) return status;
+    const ppm_image_desc desc = {.size = sizeof desc, .name = path, .role = q->role, .path = path};
+    status = ppm_scene_add_image(q->reader->scene, &desc, out_id);
+    ppmi_free(q->reader->context, path);
+    if (!is_about_input(status)) return status;
+    warn(q->reader, q->material, q->map, "left out: see the message above");
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_obj_use_map(ppmi_obj_reader *r, const ppmi_obj_material *material, int32_t map,
+                            int32_t role, ppm_texture *out_texture)
+{
+    ppm_image_id image = 0;
+    const ppmi_obj_map *from = &material->maps[map];
+    const request q = {.reader = r,
+                       .material = material,
+                       .map = map,
+                       .role = from->is_linear ? PPM_IMAGE_DATA : role,
+                       .make = make_plain};
+    *out_texture = (ppm_texture){0};
+    if (!ppmi_obj_map_is_named(from)) return PPM_STATUS_OK;
+    const ppm_status status = use_image(&q, "image", &image);
+    if (status == PPM_STATUS_OK) fill_texture(&q, image, map, out_texture);
+    return status;
+}
+
+/* ---- mixtures -------------------------------------------------------------------------------- */
+
+static ppm_status make_mixture(const request *q, ppm_image_id *out_id)
+{
+    char *paths[2] = {NULL, NULL};
+    ppm_status status = PPM_STATUS_OK;
+    for (int i = 0; i < 2 && status == PPM_STATUS_OK; ++i) {
+        const int32_t map = q->mixture->maps[i];
+        const bool is_named = map >= 0 && ppmi_obj_map_is_named(&q->material->maps[map]);
+        if (is_named) status = locate(q->reader, q->material, map, &paths[i]);
+    }
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_obj_mix_images(q->reader, q->material, q->mixture,
+                                     (const char *const[2]){paths[0], paths[1]}, out_id);
+    }
+    ppmi_free(q->reader->context, paths[0]);
+    ppmi_free(q->reader->context, paths[1]);
+    return status;
+}
+
+ppm_status ppmi_obj_use_mixture(ppmi_obj_reader *r, const ppmi_obj_material *material,
+                                const ppmi_obj_mixture *mixture, ppm_texture *out_texture)
+{
+    char kind[96];
+    ppm_image_id image = 0;
+    const ppmi_obj_map *first = &material->maps[mixture->maps[0]];
+    const ppmi_obj_map *second =
+        mixture->maps[1] >= 0 ? &material->maps[mixture->maps[1]] : &(ppmi_obj_map){0};
+    const bool has_first = ppmi_obj_map_is_named(first), has_second = ppmi_obj_map_is_named(second);
+    const request q = {.reader = r,
+                       .material = material,
+                       .map = mixture->maps[0],
+                       .role = mixture->role,
+                       .mixture = mixture,
+                       .make = make_mixture};
+    *out_texture = (ppm_texture){0};
+    if (!has_first && !has_second) return PPM_STATUS_OK;
+    snprintf(kind, sizeof kind, "%s %g %g %g", mixture->kind, (double)mixture->parameter,
+             (double)mixture->missing[0], (double)mixture->missing[1]);
+    const ppm_status status = use_image(&q, kind, &image);
+    if (status != PPM_STATUS_OK) return status;
+    fill_texture(&q, image, mixture->maps[has_first ? 0 : 1], out_texture);
+    if (image != 0 && has_first && has_second && !is_placed_alike(first, second)) {
+        warn(r, material, mixture->maps[1],
+             "-s, -o and -clamp are taken from the map that it is "
+             "mixed with, as they differ");
+    }
+    return PPM_STATUS_OK;
+}
+
+/* ---- bumps ----------------------------------------------------------------------------------- */
+
+static ppm_status make_bump(const request *q, ppm_image_id *out_id)
+{
+    char *path = NULL;
+    ppm_status status = locate(q->reader, q->material, q->map, &path);
+    if (status != PPM_STATUS_OK || !path) return status;
+    status = ppmi_obj_bump_image(q->reader, &q->material->maps[q->map], path, out_id);
+    ppmi_free(q->reader->context, path);
+    if (!is_about_input(status)) return status;
+    warn(q->reader, q->material, q->map, "left out: see the message above");
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_obj_use_bump(ppmi_obj_reader *r, const ppmi_obj_material *material, int32_t map,
+                             ppm_texture *out_texture)
+{
+    ppm_image_id image = 0;
+    const request q = {
+        .reader = r, .material = material, .map = map, .role = PPM_IMAGE_DATA, .make = make_bump};
+    *out_texture = (ppm_texture){0};
+    if (!ppmi_obj_map_is_named(&material->maps[map])) return PPM_STATUS_OK;
+    const ppm_status status = use_image(&q, "bump", &image);
+    if (status == PPM_STATUS_OK) fill_texture(&q, image, map, out_texture);
     return status;
 }

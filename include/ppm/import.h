@@ -25,6 +25,12 @@ enum {
     PPM_TRANSMISSION_POLICY_THIN = 2   /* every one is a thin sheet */
 };
 
+/* What is up in a file that does not say it. */
+enum {
+    PPM_UP_Y = 0,
+    PPM_UP_Z = 1 /* as CAD and Blender have it; turned so that its +Z is up and its +Y is away */
+};
+
 /* A time, or a shutter's, in the seconds of the file's animations. What has one value for a picture
  * (visibility, lights, materials, the angle of a camera) has that of the middle. */
 typedef struct ppm_pose {
@@ -48,8 +54,17 @@ typedef struct ppm_import_options {
     uint32_t strict;        /* non-zero: a feature that is ignored makes the file an error,
                                INPUT_UNSUPPORTED, after all such features have been reported */
     ppm_pose pose;          /* when; all 0: the static pose of the file */
-    float line_radius_m;    /* of the points and lines of a glTF file, in the space of their mesh;
-                               0: 0.2 % of the diagonal of its box */
+    float line_radius_m;    /* of the points and lines of a file, in the space of their mesh; 0:
+                               0.2 % of the diagonal of its box, in an OBJ of that of all
+                               vertices */
+    /* of an OBJ, whose format says none of it; a glTF file is told that they do not apply */
+    float crease_rad; /* faces without normals, in a file without smoothing groups, are smooth
+                         across edges that bend by this angle at most; 0: flat .. pi: all smooth */
+    float unit_scale; /* metres of one unit, above 0, at most 1e9; 0: 1 */
+    int32_t up;       /* PPM_UP_ */
+    const char *const *texture_folders; /* where images and material libraries are looked for that
+                                           are not beside the file, in this order */
+    uint32_t texture_folder_count;
 } ppm_import_options;
 
 /* Reads path (.gltf, .glb, .obj; the ending decides, letter case does not matter) into scene, which

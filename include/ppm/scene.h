@@ -75,6 +75,22 @@ PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *d
  * OK, INVALID_ARGUMENT. */
 PPM_API ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float out_rgba[4]);
 
+typedef struct ppm_image_info {
+    uint32_t size;      /* sizeof(ppm_image_info), set by the caller */
+    uint32_t width;     /* pixels */
+    uint32_t height;    /* pixels */
+    uint32_t channels;  /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA */
+    int32_t pixel_type; /* PPM_PIXELS_: how exactly it is kept */
+} ppm_image_info;
+
+/* Returns OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_get_image_info(const ppm_scene *scene, ppm_image_id id,
+                                            ppm_image_info *out_info);
+/* One row of an image, from 0 on top: 4 * width floats, RGBA; grey is in all three, alpha 1
+ * without. Linear Rec.709 for PPM_IMAGE_COLOR, else as it stands. Returns OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_read_image_row(const ppm_scene *scene, ppm_image_id id, uint32_t row,
+                                            float *out_rgba);
+
 /* Decodes and keeps count images, as many at once as there are processors. Ids and messages are in
  * the order of descs, whatever image is ready first. out_ids and out_statuses have count entries: 0
  * and what ppm_scene_add_image would have returned for an image that fails; the others are added.

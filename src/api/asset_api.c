@@ -30,12 +30,48 @@ static bool keep(ppm_context *context, const char *text, char **out)
     return *out || !text;
 }
 
+static bool keep_folders(ppm_asset *asset, const ppm_import_options *options)
+{
+    const uint32_t count = options->texture_folder_count;
+    asset->options.texture_folder_count = 0;
+    asset->options.texture_folders = NULL;
+    if (count == 0) return true;
+    asset->texture_folders =
+        ppmi_alloc_zeroed(asset->context, count, sizeof *asset->texture_folders);
+    if (!asset->texture_folders) return false;
+    asset->options.texture_folders = (const char *const *)asset->texture_folders;
+    for (uint32_t i = 0; i < count; ++i) {
+        asset->options.texture_folder_count = i + 1;
+        const char *folder = options->texture_folders[i];
+        if (!keep(asset->context, folder, &asset->texture_folders[i])) return false;
+    }
+    return true;
+}
+
+static ppm_status check_obj_options(ppm_context *context, const ppm_import_options *o)
+{
+    const char *wrong = NULL;
+    if (!(o->crease_rad >= 0.0f && o->crease_rad <= 3.1416f)) wrong = "crease_rad, 0 .. pi";
+    if (!(o->unit_scale >= 0.0f && o->unit_scale <= 1e9f)) wrong = "unit_scale, 0 .. 1e9";
+    if (o->up != PPM_UP_Y && o->up != PPM_UP_Z) wrong = "up, a PPM_UP_ value";
+    if (!(o->line_radius_m >= 0.0f && o->line_radius_m <= 1e9f)) wrong = "line_radius_m, 0 .. 1e9";
+    if (o->texture_folder_count > 0 && !o->texture_folders) wrong = "texture_folders, not NULL";
+    for (uint32_t i = 0; !wrong && i < o->texture_folder_count; ++i) {
+        if (!o->texture_folders[i]) wrong = "texture_folders, none of them NULL";
+    }
+    if (!wrong) return PPM_STATUS_OK;
+    return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "import: expected %s", wrong);
+}
+
 static ppm_status keep_request(ppm_asset *asset, const char *path,
                                const ppm_import_options *options)
 {
     ppm_context *context = asset->context;
+    const ppm_status status = check_obj_options(context, options);
+    if (status != PPM_STATUS_OK) return status;
     asset->options = *options;
-    if (!keep(context, path, &asset->path) || !keep(context, options->scene, &asset->scene_name) ||
+    if (!keep_folders(asset, options) || !keep(context, path, &asset->path) ||
+        !keep(context, options->scene, &asset->scene_name) ||
         !keep(context, options->variant, &asset->variant) ||
         !keep(context, options->animation, &asset->animation)) {
         return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory", path);
@@ -48,14 +84,29 @@ static ppm_status keep_request(ppm_asset *asset, const char *path,
 
 /* ---- open and close -------------------------------------------------------------------------- */
 
+/* A glTF file is in metres with +Y up, is flat where it has no normals, and names its images by
+ * URIs. */
+static void warn_of_obj_options(const ppm_asset *asset)
+{
+    const ppm_import_options *o = &asset->options;
+    const bool is_any =
+        o->crease_rad > 0.0f || o->unit_scale > 0.0f || o->up != 0 || o->texture_folder_count > 0;
+    if (!is_any) return;
+    ppmi_log(asset->context, PPM_LOG_WARNING,
+             "%s: crease angle, unit scale, up axis and texture folders are for OBJ files and have "
+             "no effect",
+             asset->path);
+}
+
 static ppm_status open_file(ppm_asset *asset)
 {
     const char *dot = strrchr(asset->path, '.');
     if (dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0)) {
+        warn_of_obj_options(asset);
         return ppmi_gltf_asset_open(asset->context, asset->path, &asset->options, &asset->gltf);
     }
     if (dot && strcasecmp(dot, ".obj") == 0) {
-        return ppmi_obj_asset_open(asset->context, asset->path, &asset->obj);
+        return ppmi_obj_asset_open(asset->context, asset->path, &asset->options, &asset->obj);
     }
     return ppmi_fail(asset->context, PPM_STATUS_INPUT_UNSUPPORTED,
                      "%s: the ending is none of .gltf, .glb and .obj", asset->path);
@@ -88,6 +139,10 @@ void ppm_asset_close(ppm_asset *asset)
     ppmi_catalog_deinit(&asset->catalog);
     ppmi_gltf_asset_close(asset->gltf);
     ppmi_obj_asset_close(asset->obj);
+    for (uint32_t i = 0; i < asset->options.texture_folder_count && asset->texture_folders; ++i) {
+        ppmi_free(asset->context, asset->texture_folders[i]);
+    }
+    ppmi_free(asset->context, asset->texture_folders);
     ppmi_free(asset->context, asset->path);
     ppmi_free(asset->context, asset->scene_name);
     ppmi_free(asset->context, asset->variant);

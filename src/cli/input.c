@@ -100,6 +100,12 @@ static ppm_import_options plain_options(const cli_options *options)
                                 .light_units = options->light_units,
                                 .transmission = options->transmission,
                                 .line_radius_m = (float)options->line_radius_m,
+                                .crease_rad =
+                                    (float)(options->crease_deg * (3.14159265358979323846 / 180.0)),
+                                .unit_scale = (float)options->unit_scale,
+                                .up = options->up,
+                                .texture_folders = options->texture_folders,
+                                .texture_folder_count = (uint32_t)options->texture_folder_count,
                                 .allow_outside = options->allows_outside != 0,
                                 .strict = options->is_strict != 0};
 }

@@ -190,7 +190,8 @@ static int store_list(const option_table *table, const option_row *row, const ch
     return text ? option_store_choice(table, row, text, strlen(text), &options->list) : EXIT_DONE;
 }
 
-/* outputs has room for one entry per word of argv, so appending never allocates. */
+/* outputs and texture_folders have room for one entry per word of argv, so appending never
+ * allocates. */
 int option_store_own(const option_table *table, const option_row *row, const char *text,
                      void *options)
 {
@@ -199,6 +200,9 @@ int option_store_own(const option_table *table, const option_row *row, const cha
     switch (row->kind) {
     case VALUE_OUTPUT:
         all->outputs[all->output_count++] = text;
+        return EXIT_DONE;
+    case VALUE_TEXTURE_FOLDER:
+        all->texture_folders[all->texture_folder_count++] = text;
         return EXIT_DONE;
     case VALUE_SIZE:
         return store_size(table, row, text, field);

@@ -34,6 +34,7 @@ static const option_choice transmissions[] = {{"auto", PPM_TRANSMISSION_POLICY_A
                                               {"thin", PPM_TRANSMISSION_POLICY_THIN},
                                               {NULL, 0}};
 
+static const option_choice ups[] = {{"y", PPM_UP_Y}, {"z", PPM_UP_Z}, {NULL, 0}};
 static const option_choice lists[] = {{"table", LIST_TABLE}, {"json", LIST_JSON}, {NULL, 0}};
 
 #define FIELD(member) .field = offsetof(cli_options, member)
@@ -169,6 +170,16 @@ static const option_row rows[] = {
              "(default: 0.2 % of the diagonal of its box)"},
     {"transmission", 0, OPTION_CHOICE, FIELD(transmission), .choices = transmissions,
      .argument = "HOW", .help = "glass without a thickness: auto, solid, thin (default: auto)"},
+    {"crease", 0, OPTION_REAL, FIELD(crease_deg), .low = 0.001, .high = 180, .argument = "DEGREES",
+     .help = "an OBJ without normals and smoothing groups is smooth across\n"
+             "edges that bend by no more (default: flat)"},
+    {"unit-scale", 0, OPTION_REAL, FIELD(unit_scale), .low = 1e-9, .high = 1e9, .argument = "F",
+     .help = "metres of one unit of an OBJ (default: 1)"},
+    {"up", 0, OPTION_CHOICE, FIELD(up), .choices = ups, .argument = "AXIS",
+     .help = "of an OBJ: y, z (default: y)"},
+    {"texture-path", 0, VALUE_TEXTURE_FOLDER, .argument = "DIR",
+     .help = "where images and libraries of an OBJ are looked for that are\n"
+             "not beside it; may be repeated"},
 
     {"exposure", 0, OPTION_REAL, FIELD(exposure_ev), .low = -64, .high = 64, .argument = "EV",
      .group = "Colour of .png .jpg .tif", .help = "stops; 1 is twice as bright (default: 0)"},
@@ -297,7 +308,8 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
 {
     memset(out_options, 0, sizeof *out_options);
     out_options->outputs = calloc((size_t)argc + 1, sizeof *out_options->outputs);
-    if (!out_options->outputs) {
+    out_options->texture_folders = calloc((size_t)argc + 1, sizeof *out_options->texture_folders);
+    if (!out_options->outputs || !out_options->texture_folders) {
         fputs("ppm-render: error: out of memory\n", stderr);
         return EXIT_RESOURCES;
     }
@@ -316,4 +328,6 @@ void cli_options_deinit(cli_options *options)
 {
     free(options->outputs);
     options->outputs = NULL;
+    free(options->texture_folders);
+    options->texture_folders = NULL;
 }

@@ -112,6 +112,11 @@ typedef struct cli_options {
     int32_t light_units;  /* PPM_LIGHT_UNITS_ */
     int32_t transmission; /* PPM_TRANSMISSION_POLICY_ */
     double line_radius_m; /* 0: by their mesh */
+    double crease_deg;
+    double unit_scale;
+    int32_t up;                   /* PPM_UP_ */
+    const char **texture_folders; /* room for one per word of argv */
+    size_t texture_folder_count;
 
     double exposure_ev;
     const char *display;

@@ -1,4 +1,5 @@
-/* The mean colour of an image: for what a picture of a surface can only tell as one number. */
+/* What images hold, for callers: their pixels, and the mean colour, for what a picture of a surface
+ * can only tell as one number. */
 #include "scene/scene.h"
 
 /* One texel, RGBA; grey and alpha spread as texture lookups do. */
@@ -35,5 +36,33 @@ ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float o
     }
     for (int i = 0; i < 4; i++)
         out_rgba[i] = (float)(sums[i] / (double)count);
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_scene_get_image_info(const ppm_scene *scene, ppm_image_id id,
+                                    ppm_image_info *out_info)
+{
+    if (!scene || id == 0 || id > scene->image_count || !out_info ||
+        out_info->size < sizeof *out_info) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
+    const ppmi_image *image = &scene->images[id - 1];
+    *out_info = (ppm_image_info){.size = out_info->size,
+                                 .width = image->width,
+                                 .height = image->height,
+                                 .channels = image->channels,
+                                 .pixel_type = image->u8 ? PPM_PIXELS_U8 : PPM_PIXELS_F32};
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_scene_read_image_row(const ppm_scene *scene, ppm_image_id id, uint32_t row,
+                                    float *out_rgba)
+{
+    if (!scene || id == 0 || id > scene->image_count || !out_rgba)
+        return PPM_STATUS_INVALID_ARGUMENT;
+    const ppmi_image *image = &scene->images[id - 1];
+    if (row >= image->height) return PPM_STATUS_INVALID_ARGUMENT;
+    for (size_t x = 0; x < image->width; x++)
+        texel(scene, image, (size_t)row * image->width + x, out_rgba + 4 * x);
     return PPM_STATUS_OK;
 }

@@ -174,11 +174,54 @@ static void values_out_of_range_are_brought_into_it(void **state)
     assert_obj_near(d->base_color[3], 1.0);
 }
 
+static void mayas_materials_are_opaque(void **state)
+{
+    const ppm_material_desc *d =
+        obj_import_material(*state, "illum 4\nKd 0.5 0.5 0.5\nKa 0 0 0\nTf 1 1 1\nNi 1.00\n");
+    assert_obj_near(d->transmission, 0.0);
+    assert_int_equal(d->alpha_mode, PPM_ALPHA_OPAQUE);
+    d = obj_import_material(*state, "illum 4\nKd 0.5 0.5 0.5\nTf 0.25 0.25 0.25\nNi 1.00\n");
+    assert_obj_near(d->transmission, 0.0);
+    assert_obj_near(d->base_color[3], 0.25);
+    assert_int_equal(d->alpha_mode, PPM_ALPHA_BLEND);
+    /* any of the three says that it is meant */
+    assert_obj_near(obj_import_material(*state, "illum 4\nTf 1 1 1\nNi 1.5\n")->transmission, 1.0);
+    assert_obj_near(obj_import_material(*state, "illum 4\nTf 1 1 1\nNi 1\nd 0.5\n")->transmission,
+                    1.0);
+}
+
+static void the_pbr_extension_has_sheen_and_a_clear_coat(void **state)
+{
+    const ppm_material_desc *d = obj_import_material(*state, "Ps 0.25\nPc 0.5\nPcr 0.125\n");
+    assert_color(d->sheen_color, 0.25, 0.25, 0.25);
+    assert_obj_near(d->sheen_roughness, 0.5);
+    assert_obj_near(d->clearcoat, 0.5);
+    assert_obj_near(d->clearcoat_roughness, 0.125);
+    d = obj_import_material(*state, "Ps 0\nPc 0\nPcr 0.03\naniso 0\nanisor 0\n");
+    assert_obj_near(d->sheen_color[0], 0.0);
+    assert_obj_near(d->clearcoat, 0.0);
+    assert_obj_near(d->anisotropy, 0.0);
+    d = obj_import_material(*state, "Ps 7\nPc -1\n");
+    assert_color(d->sheen_color, 1, 1, 1);
+    assert_obj_near(d->clearcoat, 0.0);
+}
+
+static void anisotropy_is_turned_in_turns(void **state)
+{
+    const double pi = 3.14159265358979;
+    const ppm_material_desc *d = obj_import_material(*state, "aniso 0.75\nanisor 0.125\n");
+    assert_obj_near(d->anisotropy, 0.75);
+    assert_obj_near(d->anisotropy_rotation_rad, 0.25 * pi);
+    d = obj_import_material(*state, "aniso -0.5\n"); /* across */
+    assert_obj_near(d->anisotropy, 0.5);
+    assert_obj_near(d->anisotropy_rotation_rad, 0.5 * pi);
+}
+
 static void what_has_no_effect_is_told_once(void **state)
 {
     obj_fixture *f = *state;
-    obj_import_material(f, "Ps 1\nmap_Bump a.png\nKa 1 1 1\nmap_Bump -bm 2 b.png\nrefl x\nodd 3\n");
-    assert_obj_logged(f, 'W', "have no effect: Ps, map_Bump, refl, odd");
+    obj_import_material(f, "decal a.png\nKa 1 1 1\nmap_Ka k.png\ndecal b.png\nodd 3\n");
+    assert_obj_logged(f, 'W', "have no effect: decal, odd");
 }
 
 static void a_material_that_no_library_has_is_the_default(void **state)
@@ -212,6 +255,9 @@ int main(void)
         TEST(ke_is_radiance_in_nit),
         TEST(pr_and_pm_win_over_ns_and_illum),
         TEST(values_out_of_range_are_brought_into_it),
+        TEST(mayas_materials_are_opaque),
+        TEST(the_pbr_extension_has_sheen_and_a_clear_coat),
+        TEST(anisotropy_is_turned_in_turns),
         TEST(what_has_no_effect_is_told_once),
         TEST(a_material_that_no_library_has_is_the_default),
     };

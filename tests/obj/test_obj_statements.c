@@ -220,11 +220,10 @@ static void what_is_not_drawn_is_counted(void **state)
 {
     obj_fixture *f = *state;
     assert_obj_status(f,
-                      obj_import(f, OBJ_TRIANGLE "f 1 2 3\nl 1 2\nl 2 3\np 1\ncstype bezier\n"
+                      obj_import(f, OBJ_TRIANGLE "f 1 2 3\nl 1\nl\np\ncstype bezier\n"
                                                  "curv 0 1 1 2\nend\nwhat is this\nVT 1 2\n"),
                       PPM_STATUS_OK);
-    assert_obj_logged(f, 'W', "2 line statements left out");
-    assert_obj_logged(f, 'W', "1 point statements left out");
+    assert_obj_logged(f, 'W', "3 lines and points of too few vertices left out");
     assert_obj_logged(f, 'W', "1 free-form curves and surfaces left out");
     assert_obj_logged(f, 'W', "2 unknown statements left out, the first is 'what' in line 11");
 }
@@ -242,7 +241,7 @@ static void a_file_without_vertices_is_refused(void **state)
 static void a_file_without_faces_has_nothing_to_render(void **state)
 {
     obj_fixture *f = *state;
-    assert_obj_status(f, obj_import(f, OBJ_TRIANGLE "l 1 2\n"), PPM_STATUS_OK);
+    assert_obj_status(f, obj_import(f, OBJ_TRIANGLE "l 1\n"), PPM_STATUS_OK);
     assert_int_equal(f->scene->instance_count, 0);
     assert_obj_logged(f, 'W', "nothing to render");
 }

@@ -1,4 +1,5 @@
 /* importers/obj/obj_texture.c: maps, their files and their options. */
+#include <stdio.h>
 #include <string.h>
 
 #include "obj_fixture.h"
@@ -78,8 +79,7 @@ static void options_with_fewer_numbers_do_not_eat_the_name(void **state)
 
 static void options_without_effect_are_told(void **state)
 {
-    obj_import_material(*state, "map_Kd -mm 0.5 2 -t 1 1 1 a.ppm\n");
-    assert_obj_logged((obj_fixture *)*state, 'W', "-mm has no effect");
+    obj_import_material(*state, "map_Kd -t 1 1 1 a.ppm\n");
     assert_obj_logged((obj_fixture *)*state, 'W', "-t (turbulence) has no effect");
 }
 
@@ -113,38 +113,88 @@ static void missing_and_broken_images_are_left_out(void **state)
                                  "map_Kd scene.mtl\n"};
     for (size_t i = 0; i < 4; ++i) {
         assert_int_equal(obj_import_material(f, names[i])->base_color_texture.image, 0);
-        assert_obj_logged(f, 'W', "sub/scene.mtl: line 1: map_Kd");
+        assert_obj_logged(f, 'W', "sub/scene.mtl: line 2: map_Kd");
         assert_obj_logged(f, 'W', "left out");
     }
 }
 
-static void the_alpha_of_map_kd_is_used_if_map_d_names_it(void **state)
+static void images_and_libraries_are_looked_for_in_the_texture_paths(void **state)
 {
     obj_fixture *f = *state;
-    assert_int_equal(obj_import_material(f, "map_Kd a.ppm\nmap_d a.ppm\n")->alpha_mode,
-                     PPM_ALPHA_BLEND);
-    assert_obj_quiet(f);
-    assert_int_equal(obj_import_material(f, "map_Kd a.ppm\nmap_d b 2.ppm\n")->alpha_mode,
-                     PPM_ALPHA_OPAQUE);
-    assert_obj_logged(f, 'W', "map_d has no effect");
-    assert_int_equal(obj_import_material(f, "map_Kd a.ppm\n")->alpha_mode, PPM_ALPHA_OPAQUE);
+    char folders[2][96];
+    snprintf(folders[0], sizeof folders[0], "%s", obj_path(f, "nowhere"));
+    snprintf(folders[1], sizeof folders[1], "%s", obj_path(f, ""));
+    const char *const list[] = {folders[0], folders[1]};
+    const char *const names[] = {"map_Kd outside.ppm\n", "map_Kd D:\\maps\\OUTSIDE.PPM\n",
+                                 "map_Kd /home/x/outside.ppm\n"};
+    for (size_t i = 0; i < 3; ++i) {
+        f->options.texture_folders = list;
+        f->options.texture_folder_count = 2;
+        assert_int_equal(obj_import_material(f, names[i])->base_color_texture.image, 1);
+        assert_obj_logged(f, 'W', "read from");
+        f->options.texture_folder_count = 1;
+        assert_int_equal(obj_import_material(f, names[i])->base_color_texture.image, 0);
+    }
+    /* what a library there names lies beside it */
+    obj_write_text(f, "other.mtl", "newmtl m\nmap_Kd outside.ppm\n");
+    f->options.texture_folder_count = 2;
+    assert_obj_status(f, obj_import(f, "mtllib other.mtl\nusemtl m\n" OBJ_TRIANGLE "f 1 2 3\n"),
+                      PPM_STATUS_OK);
+    assert_int_equal(f->scene->image_count, 1);
+    assert_obj_logged(f, 'W', "mtllib 'other.mtl': read from");
 }
 
-static void roughness_and_metal_come_from_one_image(void **state)
+static void the_end_of_a_path_is_looked_for_with_its_folders(void **state)
 {
     obj_fixture *f = *state;
-    const ppm_material_desc *d = obj_import_material(f, "map_Pr a.ppm\n");
-    assert_int_equal(d->metallic_roughness_texture.image, 1);
-    assert_obj_near(d->roughness, 1.0);
+    obj_write(f, "sub/C.ppm", image, sizeof image - 1);
+    assert_int_equal(
+        obj_import_material(f, "map_Kd C:\\project\\maps\\c.ppm\n")->base_color_texture.image, 1);
+    assert_obj_logged(f, 'W', "sub/Maps/C.ppm");
+}
+
+static void paths_outside_are_read_only_if_allowed(void **state)
+{
+    obj_fixture *f = *state;
+    char absolute[128];
+    snprintf(absolute, sizeof absolute, "map_Kd %s\n", obj_path(f, "outside.ppm"));
+    const char *const names[] = {"map_Kd ../outside.ppm\n", absolute};
+    for (size_t i = 0; i < 2; ++i) {
+        f->options.allow_outside = 0;
+        assert_int_equal(obj_import_material(f, names[i])->base_color_texture.image, 0);
+        f->options.allow_outside = 1;
+        assert_int_equal(obj_import_material(f, names[i])->base_color_texture.image, 1);
+        assert_obj_quiet(f);
+    }
+}
+
+static void blending_that_is_off_shows_the_pixels(void **state)
+{
+    const char *const maps[] = {"map_Kd -blendu off -blendv off a.ppm\n",
+                                "map_Kd -blendu off a.ppm\n", "map_Kd -blendv on a.ppm\n"};
+    for (size_t i = 0; i < 3; ++i) {
+        assert_int_equal(obj_import_material(*state, maps[i])->base_color_texture.filter,
+                         i == 0 ? PPM_FILTER_NEAREST : PPM_FILTER_LINEAR);
+    }
+}
+
+static void a_map_that_is_missing_leaves_the_value(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_near(obj_import_material(f, "Kd 0 0 0\nmap_Kd no.ppm\n")->base_color[0], 0.0);
+    const ppm_material_desc *d =
+        obj_import_material(f, "Pr 0.25\nmap_Pm no.ppm\nmap_Pc no.ppm\nmap_aniso no.ppm\n");
     assert_obj_near(d->metallic, 0.0);
-    d = obj_import_material(f, "map_Pr a.ppm\nmap_Pm a.ppm\nPr 0.5\n");
-    assert_int_equal(d->metallic_roughness_texture.image, 1);
-    assert_obj_near(d->roughness, 0.5);
-    assert_obj_near(d->metallic, 1.0);
-    d = obj_import_material(f, "map_Pr a.ppm\nmap_Pm b 2.ppm\nPm 0.5\nPr 0.5\n");
-    assert_int_equal(d->metallic_roughness_texture.image, 0);
-    assert_obj_near(d->metallic, 0.5);
-    assert_obj_logged(f, 'W', "map_Pr and map_Pm have no effect");
+    assert_obj_near(d->roughness, 0.25);
+    assert_obj_near(d->clearcoat, 0.0);
+    assert_obj_near(d->anisotropy, 0.0);
+    assert_int_equal(obj_import_material(f, "map_d no.ppm\n")->alpha_mode, PPM_ALPHA_OPAQUE);
+}
+
+static void reflection_maps_are_told(void **state)
+{
+    obj_import_material(*state, "refl -type sphere -mm 0 1 clouds.mpc\n");
+    assert_obj_logged((obj_fixture *)*state, 'W', "reflections are traced");
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, obj_teardown)
@@ -161,8 +211,12 @@ int main(void)
         TEST(a_map_that_is_elsewhere_is_found_in_the_folder),
         TEST(maps_are_relative_to_their_library_first),
         TEST(missing_and_broken_images_are_left_out),
-        TEST(the_alpha_of_map_kd_is_used_if_map_d_names_it),
-        TEST(roughness_and_metal_come_from_one_image),
+        TEST(images_and_libraries_are_looked_for_in_the_texture_paths),
+        TEST(the_end_of_a_path_is_looked_for_with_its_folders),
+        TEST(paths_outside_are_read_only_if_allowed),
+        TEST(blending_that_is_off_shows_the_pixels),
+        TEST(a_map_that_is_missing_leaves_the_value),
+        TEST(reflection_maps_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

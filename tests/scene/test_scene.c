@@ -77,6 +77,31 @@ static void the_mean_of_an_image_is_linear_and_alpha_is_1_without(void **state)
     assert_mean(add_pixels(floats, PPM_PIXELS_F32, 4, PPM_IMAGE_COLOR), 2.0, 2.0, 2.0, 2.0);
 }
 
+static void the_pixels_of_an_image_can_be_read_row_by_row(void **state)
+{
+    (void)state;
+    static const uint8_t bytes[8] = {255, 0, 188, 255, 0, 188, 188, 51};
+    float row[8];
+    ppm_image_info info = {.size = sizeof info};
+    assert_int_equal(ppm_scene_get_image_info(test.scene, 1, &info), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_read_image_row(test.scene, 1, 0, row), PPM_STATUS_INVALID_ARGUMENT);
+    const ppm_image_id id = add_pixels(bytes, PPM_PIXELS_U8, 4, PPM_IMAGE_COLOR);
+    assert_int_equal(ppm_scene_get_image_info(test.scene, id, &info), PPM_STATUS_OK);
+    assert_int_equal(info.width * info.height, 2);
+    assert_int_equal(info.channels, 4);
+    assert_int_equal(info.pixel_type, PPM_PIXELS_U8);
+    assert_int_equal(ppm_scene_read_image_row(test.scene, id, info.height, row),
+                     PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_read_image_row(test.scene, id, 0, NULL),
+                     PPM_STATUS_INVALID_ARGUMENT);
+    info.size = 4;
+    assert_int_equal(ppm_scene_get_image_info(test.scene, id, &info), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(ppm_scene_read_image_row(test.scene, id, 0, row), PPM_STATUS_OK);
+    assert_near(row[0], 1.0, 1e-6);
+    assert_near(row[2], 0.50289, 1e-4); /* sRGB 188, decoded */
+    assert_near(row[3], 1.0, 1e-6);
+}
+
 static void factors_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -422,6 +447,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(factors_out_of_range_are_refused),
         WITH_SCENE(the_mean_of_an_image_is_linear_and_alpha_is_1_without),
+        WITH_SCENE(the_pixels_of_an_image_can_be_read_row_by_row),
         WITH_SCENE(choices_out_of_range_are_refused),
         WITH_SCENE(textures_must_exist),
         WITH_SCENE(a_medium_scatters_by_its_colour_after_all_scattering),
