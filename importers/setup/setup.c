@@ -290,7 +290,8 @@ ppm_status ppm_setup_apply(ppm_setup *setup, ppm_scene *scene, uint32_t parts)
     setup->scene = scene;
     for (size_t i = 0; i < SECTION_COUNT && status == PPM_STATUS_OK; i++) {
         if (sections[i].part & parts) status = apply_section(setup, i);
-        const bool is_after = sections[i].part == PPM_SETUP_MATERIALS && parts & PPM_SETUP_MATERIALS;
+        const bool is_after =
+            sections[i].part == PPM_SETUP_MATERIALS && parts & PPM_SETUP_MATERIALS;
         if (status == PPM_STATUS_OK && is_after) status = ppmi_setup_remember_materials(setup);
     }
     setup->applied_parts = parts;
@@ -335,10 +336,8 @@ ppm_status ppm_setup_get_item(const ppm_setup *setup, uint32_t index, ppm_setup_
         return PPM_STATUS_INVALID_ARGUMENT;
     }
     const ppmi_setup_entry *entry = &setup->entries[index];
-    *out_item = (ppm_setup_item){.size = out_item->size,
-                                 .part = entry->part,
-                                 .name = entry->name,
-                                 .detail = entry->detail};
+    *out_item = (ppm_setup_item){
+        .size = out_item->size, .part = entry->part, .name = entry->name, .detail = entry->detail};
     return PPM_STATUS_OK;
 }
 

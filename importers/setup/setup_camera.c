@@ -28,9 +28,8 @@ enum {
     PERSPECTIVE_ONLY = FOV | FOCAL | SENSOR | ASPECT | F_NUMBER | FOCUS_DISTANCE | FOCUS_NODE
 };
 
-static const ppmi_setup_word kinds[] = {{"perspective", PPM_CAMERA_PERSPECTIVE},
-                                        {"orthographic", PPM_CAMERA_ORTHOGRAPHIC},
-                                        {NULL, 0}};
+static const ppmi_setup_word kinds[] = {
+    {"perspective", PPM_CAMERA_PERSPECTIVE}, {"orthographic", PPM_CAMERA_ORTHOGRAPHIC}, {NULL, 0}};
 #define FIELD(member) .field = offsetof(camera_words, member)
 static const ppmi_setup_key keys[] = {
     PPMI_SETUP_POSE_KEYS,

@@ -53,7 +53,8 @@ bool ppmi_setup_grow(ppm_context *context, void **items, size_t count, size_t *c
 ppm_status ppmi_setup_add_entry(ppm_setup *setup, uint32_t part, const char *name,
                                 const char *detail);
 
-/* ---- sections: each reads what it is given, and adds it to setup->scene if there is one ------- */
+/* ---- sections: each reads what it is given, and adds it to setup->scene if there is one -------
+ */
 
 ppm_status ppmi_setup_camera_section(const ppmi_setup_value *camera);
 ppm_status ppmi_setup_light_section(const ppmi_setup_value *light);
@@ -121,8 +122,8 @@ enum {
 #define PPMI_SETUP_POSE_KEYS                                                                       \
     {"position", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, position), -1e15, 1e15, .count = 3},  \
         {"target", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, target), -1e15, 1e15, .count = 3},  \
-        {"direction", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, direction), -1e15, 1e15,         \
-         .count = 3},                                                                              \
+        {"direction", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, direction), -1e15,               \
+         1e15,        .count = 3},                                                                 \
         {"up", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, up), -1e15, 1e15, .count = 3},          \
     {                                                                                              \
         "matrix", PPMI_SETUP_REALS, offsetof(ppmi_setup_pose, matrix), -1e15, 1e15, .count = 16    \

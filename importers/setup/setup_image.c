@@ -35,8 +35,8 @@ static ppm_status check_file(const ppmi_setup_value *value, const char *path)
         reason = "it is a folder";
     }
     if (!reason) return PPM_STATUS_OK;
-    return ppmi_fail(value->setup->context, PPM_STATUS_INPUT_NOT_FOUND, "%s: %s: cannot read %s: %s",
-                     value->setup->path, value->place, path, reason);
+    return ppmi_fail(value->setup->context, PPM_STATUS_INPUT_NOT_FOUND,
+                     "%s: %s: cannot read %s: %s", value->setup->path, value->place, path, reason);
 }
 
 ppm_status ppmi_setup_find_file(const ppmi_setup_value *value, const char *name, char **out_path)
@@ -45,8 +45,9 @@ ppm_status ppmi_setup_find_file(const ppmi_setup_value *value, const char *name,
     const char *slash = strrchr(setup->path, '/');
     const size_t folder = slash && name[0] != '/' ? (size_t)(slash - setup->path) + 1 : 0;
     if (!setup->allows_outside && (name[0] == '/' || !stays_inside(name))) {
-        return ppmi_setup_fail(value, "\"%s\" lies outside of the setup file's folder; such files "
-                                      "are read only if that is allowed (--allow-outside)",
+        return ppmi_setup_fail(value,
+                               "\"%s\" lies outside of the setup file's folder; such files "
+                               "are read only if that is allowed (--allow-outside)",
                                name);
     }
     char *path = ppmi_alloc(setup->context, folder + strlen(name) + 1, 1);
@@ -111,10 +112,8 @@ typedef struct texture_words {
 
 enum { IMAGE = 1, WRAP = 4, WRAP_U = 8, WRAP_V = 16, SCALE = 64, OFFSET = 128, ROTATION = 256 };
 
-static const ppmi_setup_word wraps[] = {{"repeat", PPM_WRAP_REPEAT},
-                                        {"clamp", PPM_WRAP_CLAMP},
-                                        {"mirror", PPM_WRAP_MIRROR},
-                                        {NULL, 0}};
+static const ppmi_setup_word wraps[] = {
+    {"repeat", PPM_WRAP_REPEAT}, {"clamp", PPM_WRAP_CLAMP}, {"mirror", PPM_WRAP_MIRROR}, {NULL, 0}};
 static const ppmi_setup_word filters[] = {
     {"linear", PPM_FILTER_LINEAR}, {"nearest", PPM_FILTER_NEAREST}, {NULL, 0}};
 #define FIELD(member) .field = offsetof(texture_words, member)

@@ -253,8 +253,8 @@ static void list_keys(const ppmi_setup_key *keys, size_t count, uint64_t mask, c
     buffer[0] = 0;
     for (size_t i = 0; i < count; i++) {
         if (!(mask >> i & 1) || used + 1 >= size) continue;
-        const int n = snprintf(buffer + used, size - used, "%s\"%s\"", used > 0 ? ", " : "",
-                               keys[i].name);
+        const int n =
+            snprintf(buffer + used, size - used, "%s\"%s\"", used > 0 ? ", " : "", keys[i].name);
         used += n > 0 ? (size_t)n : 0;
     }
 }

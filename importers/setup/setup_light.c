@@ -51,10 +51,13 @@ enum {
     QUANTITIES = CANDELA | LUMEN | WATT | LUX | NIT | FACTOR
 };
 
-static const ppmi_setup_word kinds[] = {
-    {"point", PPM_LIGHT_POINT}, {"spot", PPM_LIGHT_SPOT},           {"sun", SUN},
-    {"directional", SUN},       {"rectangle", PPM_LIGHT_RECTANGLE}, {"disk", PPM_LIGHT_DISK},
-    {NULL, 0}};
+static const ppmi_setup_word kinds[] = {{"point", PPM_LIGHT_POINT},
+                                        {"spot", PPM_LIGHT_SPOT},
+                                        {"sun", SUN},
+                                        {"directional", SUN},
+                                        {"rectangle", PPM_LIGHT_RECTANGLE},
+                                        {"disk", PPM_LIGHT_DISK},
+                                        {NULL, 0}};
 #define FIELD(member) .field = offsetof(light_words, member)
 static const ppmi_setup_key keys[] = {
     PPMI_SETUP_POSE_KEYS,
@@ -135,8 +138,8 @@ static ppm_status check_shape(const ppmi_setup_value *light, const light_words *
                                is_disk ? ", or \"radius\"" : "");
     }
     if (words->kind == PPM_LIGHT_SPOT && words->inner_cone > words->outer_cone) {
-        return ppmi_setup_fail(light, "inner_cone %g is wider than outer_cone %g", words->inner_cone,
-                               words->outer_cone);
+        return ppmi_setup_fail(light, "inner_cone %g is wider than outer_cone %g",
+                               words->inner_cone, words->outer_cone);
     }
     return PPM_STATUS_OK;
 }
@@ -151,8 +154,8 @@ static ppm_status check_keys(const ppmi_setup_value *light, const light_words *w
                              RADIUS | WIDTH | HEIGHT;
     const uint64_t foreign =
         special & ~(rules[words->kind].allowed | rules[words->kind].quantities);
-    ppm_status status = ppmi_setup_check_none(light, keys, KEY_COUNT, given, foreign,
-                                              rules[words->kind].reason);
+    ppm_status status =
+        ppmi_setup_check_none(light, keys, KEY_COUNT, given, foreign, rules[words->kind].reason);
     if (status == PPM_STATUS_OK) status = check_quantity(light, words, given);
     if (status == PPM_STATUS_OK) status = check_shape(light, words, given);
     return status;
@@ -183,8 +186,7 @@ static double per_lumen(const light_words *words)
 
 static double quantity_of(const light_words *words, uint64_t given)
 {
-    const bool is_flat =
-        words->kind == PPM_LIGHT_RECTANGLE || words->kind == PPM_LIGHT_DISK;
+    const bool is_flat = words->kind == PPM_LIGHT_RECTANGLE || words->kind == PPM_LIGHT_DISK;
     if (given & PROFILE) return given & FACTOR ? words->factor : 1.0;
     if (given & LUMEN) return words->lumen * per_lumen(words);
     if (given & WATT) return words->watt * lumens_per_watt * per_lumen(words);
@@ -200,7 +202,8 @@ static ppm_status fill_intensity(const ppmi_setup_value *light, const light_word
     if (given & KELVIN) ppmi_setup_black_body(words->kelvin, white);
     for (int i = 0; i < 3; i++) {
         const double value = quantity * white[i] * words->color[i];
-        if (!(value < 1e18)) return ppmi_setup_fail(light, "its intensity, %g, is too large", value);
+        if (!(value < 1e18))
+            return ppmi_setup_fail(light, "its intensity, %g, is too large", value);
         out[i] = (float)value;
     }
     return PPM_STATUS_OK;
@@ -323,8 +326,8 @@ static ppm_status use_profile(const ppmi_setup_value *light, const char *name, p
     ppm_status status = ppmi_setup_find_file(&place, name, &path);
     if (status != PPM_STATUS_OK) return status;
     char *bytes = read_file(context, path, &count);
-    status = bytes ? ppmi_ies_parse(context, bytes, count, &parsed, &reason)
-                   : PPM_STATUS_INPUT_INVALID;
+    status =
+        bytes ? ppmi_ies_parse(context, bytes, count, &parsed, &reason) : PPM_STATUS_INPUT_INVALID;
     if (status == PPM_STATUS_OK) {
         status = add_profile(&place, name, &parsed, desc);
     } else if (status == PPM_STATUS_OUT_OF_MEMORY) {

@@ -42,17 +42,24 @@ static ppm_status skip(const ppmi_setup_value *value, const ppmi_setup_key *key,
     return PPM_STATUS_OK;
 }
 
-static const ppmi_setup_word alpha_modes[] = {{"opaque", PPM_ALPHA_OPAQUE},
-                                              {"mask", PPM_ALPHA_MASK},
-                                              {"blend", PPM_ALPHA_BLEND},
-                                              {NULL, 0}};
+static const ppmi_setup_word alpha_modes[] = {
+    {"opaque", PPM_ALPHA_OPAQUE}, {"mask", PPM_ALPHA_MASK}, {"blend", PPM_ALPHA_BLEND}, {NULL, 0}};
 static const ppmi_setup_word transmission_kinds[] = {
     {"solid", PPM_TRANSMISSION_SOLID}, {"thin", PPM_TRANSMISSION_THIN}, {NULL, 0}};
 
 #define FIELD(member) .field = offsetof(material_words, desc.member)
-#define REAL(member, least, most) {#member, PPMI_SETUP_FLOAT, FIELD(member), least, most}
-#define COLOR(member, most) {#member, PPMI_SETUP_COLOR, FIELD(member), 0, most}
-#define IMAGE(member, reader) {#member, PPMI_SETUP_OWN, FIELD(member), .read = reader}
+#define REAL(member, least, most)                                                                  \
+    {                                                                                              \
+#member, PPMI_SETUP_FLOAT, FIELD(member), least, most                                      \
+    }
+#define COLOR(member, most)                                                                        \
+    {                                                                                              \
+#member, PPMI_SETUP_COLOR, FIELD(member), 0, most                                          \
+    }
+#define IMAGE(member, reader)                                                                      \
+    {                                                                                              \
+#member, PPMI_SETUP_OWN, FIELD(member), .read = reader                                     \
+    }
 static const ppmi_setup_key keys[] = {
     {"match", PPMI_SETUP_OWN, .field = offsetof(material_words, match),
      .read = ppmi_setup_read_match},
@@ -132,7 +139,8 @@ static ppm_status read_rule(const ppmi_setup_value *rule, material_words *words)
         status = ppmi_setup_read_object(rule, keys, KEY_COUNT, words, NULL);
     }
     if (status == PPM_STATUS_OK && !words->match.value.json) {
-        status = ppmi_setup_fail(rule, "no \"match\": expected the name of materials, or a pattern");
+        status =
+            ppmi_setup_fail(rule, "no \"match\": expected the name of materials, or a pattern");
     }
     return status;
 }

@@ -62,8 +62,9 @@ static ppm_status take_matrix(const ppmi_setup_value *object, const ppmi_setup_p
 {
     const double *m = pose->matrix;
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
-        return ppmi_setup_fail(object, "\"matrix\": entries 3, 7, 11 and 15 are %g %g %g %g, "
-                                       "expected 0 0 0 1: columns come one after the other",
+        return ppmi_setup_fail(object,
+                               "\"matrix\": entries 3, 7, 11 and 15 are %g %g %g %g, "
+                               "expected 0 0 0 1: columns come one after the other",
                                m[3], m[7], m[11], m[15]);
     }
     for (int i = 0; i < 16; i++)
@@ -75,8 +76,8 @@ ppm_status ppmi_setup_pose_transform(const ppmi_setup_value *object, const ppmi_
                                      uint64_t given, bool needs_position, bool needs_direction,
                                      float out_transform[16])
 {
-    const uint64_t others = PPMI_SETUP_POSITION | PPMI_SETUP_TARGET | PPMI_SETUP_DIRECTION |
-                            PPMI_SETUP_UP;
+    const uint64_t others =
+        PPMI_SETUP_POSITION | PPMI_SETUP_TARGET | PPMI_SETUP_DIRECTION | PPMI_SETUP_UP;
     const bool has_target = given & PPMI_SETUP_TARGET;
     double forward[3] = {0.0, 0.0, -1.0};
     if (given & PPMI_SETUP_MATRIX) {

@@ -39,8 +39,8 @@ static ppm_status no_such_preset(const ppmi_setup_value *value, const char *text
     for (size_t i = 0; i < PRESET_COUNT; i++)
         names[i] = presets[i].name;
     const char *nearest = ppmi_suggest(text, names, PRESET_COUNT);
-    return ppmi_setup_fail(value, "there is no preset \"%s\"%s%s%s (docs/setup.md lists them)", text,
-                           nearest ? "; did you mean \"" : "", nearest ? nearest : "",
+    return ppmi_setup_fail(value, "there is no preset \"%s\"%s%s%s (docs/setup.md lists them)",
+                           text, nearest ? "; did you mean \"" : "", nearest ? nearest : "",
                            nearest ? "\"?" : "");
 }
 
