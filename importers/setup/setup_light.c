@@ -269,23 +269,28 @@ static ppm_status read_light(const ppmi_setup_value *light, light_words *words,
 
 /* ---- profiles -------------------------------------------------------------------------------- */
 
-/* The whole file; the caller's. NULL when it cannot be read or is not of a profile's size. */
-static char *read_file(ppm_context *context, const char *path, size_t *out_count)
+/* The whole file; the caller's. */
+static ppm_status read_file(const ppmi_setup_value *place, const char *path, char **out_bytes,
+                            size_t *out_count)
 {
     enum { MOST = 16 << 20 };
+    ppm_context *context = place->setup->context;
     FILE *file = fopen(path, "rb");
-    if (!file) return NULL;
-    char *bytes = NULL;
-    const long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
-    if (size > 0 && size <= MOST) bytes = ppmi_alloc(context, (size_t)size, 1);
-    rewind(file);
-    if (bytes && fread(bytes, 1, (size_t)size, file) != (size_t)size) {
-        ppmi_free(context, bytes);
-        bytes = NULL;
+    const long size = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    ppm_status status = PPM_STATUS_OK;
+    if (size <= 0 || size > MOST) {
+        status =
+            ppmi_setup_fail(place, "%s is empty, larger than %d bytes or unreadable", path, MOST);
+    } else {
+        *out_bytes = ppmi_alloc(context, (size_t)size, 1);
+        if (!*out_bytes) status = ppmi_setup_out_of_memory(place->setup);
     }
-    fclose(file);
-    *out_count = bytes ? (size_t)size : 0;
-    return bytes;
+    if (status == PPM_STATUS_OK) {
+        rewind(file);
+        *out_count = fread(*out_bytes, 1, (size_t)size, file);
+    }
+    if (file) fclose(file);
+    return status;
 }
 
 /* Turns a light about the axis that it shines along, from +X towards +Y. */
@@ -314,31 +319,35 @@ static ppm_status add_profile(const ppmi_setup_value *place, const char *name,
     return ppm_scene_add_light_profile(place->setup->scene, &desc, &light->profile);
 }
 
+static ppm_status parse_profile(const ppmi_setup_value *place, const char *name, const char *bytes,
+                                size_t count, ppm_light_desc *desc)
+{
+    ppm_setup *setup = place->setup;
+    ppmi_ies_profile parsed = {0};
+    const char *reason = "";
+    ppm_status status = ppmi_ies_parse(setup->context, bytes, count, &parsed, &reason);
+    if (status == PPM_STATUS_OK) {
+        status = add_profile(place, name, &parsed, desc);
+    } else if (status == PPM_STATUS_OUT_OF_MEMORY) {
+        ppmi_setup_out_of_memory(setup);
+    } else {
+        status = ppmi_setup_fail(place, "\"%s\" is no IES profile: %s", name, reason);
+    }
+    ppmi_ies_deinit(setup->context, &parsed);
+    return status;
+}
+
 static ppm_status use_profile(const ppmi_setup_value *light, const char *name, ppm_light_desc *desc)
 {
     const ppmi_setup_value place =
         ppmi_setup_member(light, "profile", json_object_get(light->json, "profile"));
-    ppm_context *context = light->setup->context;
-    ppmi_ies_profile parsed = {0};
-    const char *reason = "";
-    char *path = NULL;
+    char *path = NULL, *bytes = NULL;
     size_t count = 0;
     ppm_status status = ppmi_setup_find_file(&place, name, &path);
-    if (status != PPM_STATUS_OK) return status;
-    char *bytes = read_file(context, path, &count);
-    status =
-        bytes ? ppmi_ies_parse(context, bytes, count, &parsed, &reason) : PPM_STATUS_INPUT_INVALID;
-    if (status == PPM_STATUS_OK) {
-        status = add_profile(&place, name, &parsed, desc);
-    } else if (status == PPM_STATUS_OUT_OF_MEMORY) {
-        ppmi_setup_out_of_memory(light->setup);
-    } else {
-        status = ppmi_setup_fail(&place, "\"%s\" is no IES profile: %s", name,
-                                 bytes ? reason : "it is empty, too large or unreadable");
-    }
-    ppmi_ies_deinit(context, &parsed);
-    ppmi_free(context, bytes);
-    ppmi_free(context, path);
+    if (status == PPM_STATUS_OK) status = read_file(&place, path, &bytes, &count);
+    if (status == PPM_STATUS_OK) status = parse_profile(&place, name, bytes, count, desc);
+    ppmi_free(light->setup->context, bytes);
+    ppmi_free(light->setup->context, path);
     return status;
 }
 
