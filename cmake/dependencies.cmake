@@ -40,6 +40,10 @@ endif()
 find_package(tinyobjloader REQUIRED CONFIG)
 set(PPM_TINYOBJ_TARGET tinyobjloader::tinyobjloader) # single precision; a shared library on Debian
 
+# Setup files, statistics, lists.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+
 # Compressed geometry of glTF. Draco may be left out.
 find_package(meshoptimizer 0.18 REQUIRED CONFIG)
 if(PPM_WITH_DRACO)

@@ -52,47 +52,14 @@ def add_lamp():
     kit.aim(lamp, (0.0, 0.05, 0.10))
 
 
-def shell(outside, thickness):
-    """A closed profile from the outer one of an open vessel: over the rim and down inside.
-
-    outside runs from the foot's middle up to the lip; the inner side is offset from it.
-    """
-    points = [mathutils.Vector(point) for point in outside]
-    inside = []
-    for i, point in enumerate(points):
-        along = (points[min(i + 1, len(points) - 1)] - points[max(i - 1, 0)]).normalized()
-        inner = point + thickness * mathutils.Vector((-along.y, along.x))
-        if inner.x > thickness:
-            inside.append(tuple(inner))
-    lip = (points[-1] + mathutils.Vector(inside[-1])) / 2
-    lip += 0.5 * thickness * (points[-1] - points[-2]).normalized()
-    return [*outside, tuple(lip), *reversed(inside), (0.0, inside[0][1])]
-
-
-def smooth_profile(knots, steps=4):
-    """A Catmull-Rom curve through points of (radius, height)."""
-    points = [mathutils.Vector(knot) for knot in knots]
-    points = [2 * points[0] - points[1], *points, 2 * points[-1] - points[-2]]
-    curve = []
-    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
-        for i in range(steps):
-            t = i / steps
-            curve.append(
-                0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2)
-                + 0.5 * (3 * b - a - 3 * c + d) * t**3
-            )
-    curve.append(points[-2])
-    return [(max(point.x, 0.0), point.y) for point in curve]
-
-
 def add_vase(location):
     celadon = kit.ceramic("Celadon", (0.25, 0.46, 0.33), 0.03)
     outside = [(0.0, 0.002), (0.03, 0.001)]
-    outside += smooth_profile(
+    outside += kit.smooth_profile(
         [(0.052, 0.0), (0.085, 0.07), (0.098, 0.15), (0.07, 0.24), (0.032, 0.31), (0.033, 0.35),
          (0.050, 0.375)]
     )
-    kit.add_lathe("Vase", shell(outside, 0.005), celadon, location, segments=56)
+    kit.add_lathe("Vase", kit.shell(outside, 0.005), celadon, location, segments=56)
 
 
 def add_bowl(location):
@@ -100,7 +67,7 @@ def add_bowl(location):
     cobalt = kit.ceramic("Cobalt", (0.020, 0.045, 0.22))
     foot = [(0.0, 0.004), (0.02, 0.004), (0.034, 0.004), (0.036, 0.0), (0.042, 0.0)]
     outside = foot + kit.arc((0.0, 0.128), 0.120, -69.0, 0.0, 16)
-    kit.add_lathe("Bowl", shell(outside, 0.006), cobalt, location, segments=72)
+    kit.add_lathe("Bowl", kit.shell(outside, 0.006), cobalt, location, segments=72)
 
 
 def add_cup(location, turn_degrees):
@@ -108,7 +75,7 @@ def add_cup(location, turn_degrees):
     corner = kit.arc((0.033, 0.008), 0.008, -90.0, 0.0, 5)
     outside = [(0.0, 0.002), (0.015, 0.002), (0.028, 0.002), *corner]
     outside += [*kit.line(corner[-1], (0.042, 0.092), 6), (0.042, 0.092)]
-    kit.add_lathe("Cup", shell(outside, 0.004), oxblood, location, segments=56)
+    kit.add_lathe("Cup", kit.shell(outside, 0.004), oxblood, location, segments=56)
     turn = math.radians(turn_degrees)
     points = []
     for step in range(17):

@@ -110,6 +110,39 @@ def line(start, end, steps):
     return [(x + dx * i / steps, y + dy * i / steps) for i in range(1, steps)]
 
 
+def shell(outside, thickness):
+    """A closed profile from the outer one of an open vessel: over the rim and down inside.
+
+    outside runs from the foot's middle up to the lip; the inner side is offset from it.
+    """
+    points = [mathutils.Vector(point) for point in outside]
+    inside = []
+    for i, point in enumerate(points):
+        along = (points[min(i + 1, len(points) - 1)] - points[max(i - 1, 0)]).normalized()
+        inner = point + thickness * mathutils.Vector((-along.y, along.x))
+        if inner.x > thickness:
+            inside.append(tuple(inner))
+    lip = (points[-1] + mathutils.Vector(inside[-1])) / 2
+    lip += 0.5 * thickness * (points[-1] - points[-2]).normalized()
+    return [*outside, tuple(lip), *reversed(inside), (0.0, inside[0][1])]
+
+
+def smooth_profile(knots, steps=4):
+    """A Catmull-Rom curve through points of (radius, height)."""
+    points = [mathutils.Vector(knot) for knot in knots]
+    points = [2 * points[0] - points[1], *points, 2 * points[-1] - points[-2]]
+    curve = []
+    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
+        for i in range(steps):
+            t = i / steps
+            curve.append(
+                0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2)
+                + 0.5 * (3 * b - a - 3 * c + d) * t**3
+            )
+    curve.append(points[-2])
+    return [(max(point.x, 0.0), point.y) for point in curve]
+
+
 def add_cuboid(name, low, high, material, turn_degrees=0.0):
     """A box between two corners, turned about the vertical through its middle."""
     middle = [(a + b) / 2 for a, b in zip(low, high)]
@@ -324,6 +357,35 @@ def edit_glb(path, edit):
         file.write(struct.pack("<I4s", len(text), b"JSON"))
         file.write(text)
         file.write(rest)
+
+
+def export_obj(path, materials, comment):
+    """Writes the meshes as PATH.obj and PATH.mtl, in metres with +Y up; materials has for each name
+    the statements of it. No normals: smooth faces are in one smoothing group, which means them."""
+    lines = [f"# {comment}", f"mtllib {os.path.basename(path)}.mtl"]
+    first = 1
+    for thing in bpy.context.scene.objects:
+        if thing.type != "MESH":
+            continue
+        mesh = thing.data
+        lines.append(f"o {thing.name}")
+        for vertex in mesh.vertices:
+            x, y, z = thing.matrix_world @ vertex.co
+            lines.append("v " + " ".join(f"{value:.6f}" for value in (x, z, -y)))
+        lines.append(f"usemtl {mesh.materials[0].name}")
+        lines.append("s 1" if mesh.polygons[0].use_smooth else "s off")
+        lines += ["f " + " ".join(str(first + k) for k in face.vertices) for face in mesh.polygons]
+        first += len(mesh.vertices)
+    write_lines(path + ".obj", lines)
+    lines = [f"# {comment}"]
+    for name, statements in materials.items():
+        lines += [f"newmtl {name}", *statements]
+    write_lines(path + ".mtl", lines)
+
+
+def write_lines(path, lines):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
 
 
 # ---- Cycles reference ----------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include "ppm/output.h"
 #include "ppm/render.h"
 #include "ppm/scene.h"
+#include "ppm/setup.h"
 #include "ppm/status.h"
 
 #endif

@@ -507,6 +507,27 @@ typedef struct ppm_scene_info {
 
 PPM_API ppm_status ppm_scene_get_info(const ppm_scene *scene, ppm_scene_info *out_info);
 
+/* ---- what has been added, read back ---------------------------------------------------------- */
+
+PPM_API uint32_t ppm_scene_material_count(const ppm_scene *scene);
+/* A material as it is now, for ppm_scene_set_material; desc->name is the material's, never NULL,
+ * valid until destroy. desc->size is set by the caller. Returns OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_get_material(const ppm_scene *scene, ppm_material_id id,
+                                          ppm_material_desc *desc);
+/* The mesh that an instance shows; 0 for an unknown id. */
+PPM_API ppm_mesh_id ppm_scene_instance_mesh(const ppm_scene *scene, ppm_instance_id id);
+PPM_API uint32_t ppm_scene_primitive_count(const ppm_scene *scene, ppm_mesh_id id);
+/* The material of one primitive of a mesh; 0 for unknown ones. */
+PPM_API ppm_material_id ppm_scene_primitive_material(const ppm_scene *scene, ppm_mesh_id id,
+                                                     uint32_t primitive);
+/* Gives a primitive another material, in all instances of its mesh, as the calls under "changes
+ * between frames" do. */
+PPM_API ppm_status ppm_scene_set_primitive_material(ppm_scene *scene, ppm_mesh_id id,
+                                                    uint32_t primitive, ppm_material_id material);
+/* The environment as it is now; all 0 but size where none is set. desc->size is set by the caller.
+ * Returns OK, INVALID_ARGUMENT. */
+PPM_API ppm_status ppm_scene_get_environment(const ppm_scene *scene, ppm_environment_desc *desc);
+
 #ifdef __cplusplus
 }
 #endif

@@ -10,11 +10,13 @@
 #include "choose.h"
 #include "clock.h"
 #include "setup.h"
+#include "setup_file.h"
 
 void input_deinit(cli_input *input)
 {
     ppm_asset_close(input->asset);
     ppm_scene_destroy(input->scene);
+    ppm_setup_close(input->setup);
     *input = (cli_input){0};
 }
 
@@ -186,6 +188,17 @@ static int frame_static_pose(cli_input *input, cli_console *console, const cli_o
     return result == EXIT_DONE ? setup_missing_camera(console, input->scene, options) : result;
 }
 
+/* In the static pose, as cameras may focus on what moves. */
+static int apply_setup(cli_input *input, const cli_options *options, bool has_frame)
+{
+    const ppm_pose still = {0};
+    if (!input->setup) return EXIT_DONE;
+    const int result = has_frame ? set_pose(input, &still) : EXIT_DONE;
+    if (result != EXIT_DONE) return result;
+    return exit_status_of(ppm_setup_apply(input->setup, input->scene, setup_file_parts(options)),
+                          EXIT_INPUT);
+}
+
 int input_set_moment(cli_input *input, cli_console *console, const ppm_color *color,
                      ppm_context *context, const cli_options *options, const cli_picture *picture)
 {
@@ -194,14 +207,19 @@ int input_set_moment(cli_input *input, cli_console *console, const ppm_color *co
     const ppm_pose pose = pose_of(options, picture);
     int result = EXIT_DONE;
     if (is_first) {
-        ppm_status status = import(input, color, context);
-        if (status == PPM_STATUS_OK) status = setup_surroundings(input->scene, options);
-        result = exit_status_of(status, EXIT_INPUT);
+        result = exit_status_of(import(input, color, context), EXIT_INPUT);
+        if (result == EXIT_DONE) result = apply_setup(input, options, picture->has_frame);
+        if (result == EXIT_DONE) {
+            result = exit_status_of(setup_surroundings(input->scene, options), EXIT_INPUT);
+        }
     }
     if (is_first && result == EXIT_DONE && picture->has_frame) {
         result = frame_static_pose(input, console, options);
     }
     if (result == EXIT_DONE) result = set_pose(input, &pose);
+    if (result == EXIT_DONE && input->setup && picture->has_frame) {
+        result = exit_status_of(ppm_setup_reapply(input->setup, input->scene), EXIT_INPUT);
+    }
     input->seconds += clock_seconds() - begin;
     return result;
 }

@@ -8,6 +8,7 @@
 #include "ppm/ppm.h"
 
 typedef struct cli_input {
+    ppm_setup *setup; /* owned; NULL: none */
     ppm_asset *asset; /* NULL: not opened */
     ppm_scene *scene; /* NULL: not imported */
     ppm_pose pose;    /* of the scene */
@@ -25,8 +26,8 @@ int input_open(cli_input *input, cli_console *console, ppm_context *context,
 void input_say_animations(const cli_input *input, cli_console *console, const cli_options *options);
 
 /* Brings the scene to the moment of picture; the first time it is imported, with the environment,
- * the sun and the fog that are asked for. No render of the scene may be alive. Returns an exit
- * status; the library has said what is wrong. */
+ * the sun and the fog that are asked for, after what the setup file says. No render of the scene
+ * may be alive. Returns an exit status; the library has said what is wrong. */
 int input_set_moment(cli_input *input, cli_console *console, const ppm_color *color,
                      ppm_context *context, const cli_options *options, const cli_picture *picture);
 

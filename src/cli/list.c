@@ -97,7 +97,38 @@ static void print_features(const ppm_asset *asset, int32_t verdict, bool *has_he
     }
 }
 
-static void print_table(const ppm_asset *asset, const char *path)
+static const char *part_name(uint32_t part)
+{
+    switch (part) {
+    case PPM_SETUP_CAMERAS:
+        return "camera";
+    case PPM_SETUP_LIGHTS:
+        return "light";
+    case PPM_SETUP_ENVIRONMENT:
+        return "environment";
+    case PPM_SETUP_FOG:
+        return "fog";
+    case PPM_SETUP_MATERIALS:
+        return "material";
+    case PPM_SETUP_NODES:
+        return "node";
+    }
+    return "render";
+}
+
+static void print_setup(const ppm_setup *setup)
+{
+    if (!setup) return;
+    printf("\nSetup file (--setup): %s\n", ppm_setup_path(setup));
+    for (uint32_t i = 0; i < ppm_setup_count(setup); i++) {
+        ppm_setup_item item = {.size = sizeof item};
+        if (ppm_setup_get_item(setup, i, &item) != PPM_STATUS_OK) continue;
+        printf("  %-11s  %s%s%s\n", part_name(item.part), item.name,
+               *item.name && *item.detail ? ": " : "", item.detail);
+    }
+}
+
+static void print_table(const ppm_asset *asset, const ppm_setup *setup, const char *path)
 {
     const char *const generator = ppm_asset_generator(asset);
     const char *const units = ppm_asset_light_units(asset);
@@ -106,6 +137,7 @@ static void print_table(const ppm_asset *asset, const char *path)
     printf("Units: metres, radians, seconds%s%s\n", *units ? "; lights: " : "", units);
     for (size_t i = 0; i < KIND_COUNT; i++)
         print_kind(asset, kinds[i].kind, kinds[i].heading);
+    print_setup(setup);
     print_features(asset, PPM_FEATURE_IGNORED, &has_heading);
     print_features(asset, PPM_FEATURE_APPROXIMATED, &has_heading);
     print_features(asset, PPM_FEATURE_HONOURED, &has_heading);
@@ -133,7 +165,26 @@ static json_t *kind_json(const ppm_asset *asset, int32_t kind)
     return list;
 }
 
-static int print_json(const ppm_asset *asset, const char *path)
+/* null without a setup file. */
+static json_t *setup_json(const ppm_setup *setup)
+{
+    if (!setup) return json_null();
+    json_t *const root = json_object(), *const items = json_array();
+    for (uint32_t i = 0; items && i < ppm_setup_count(setup); i++) {
+        ppm_setup_item item = {.size = sizeof item};
+        if (ppm_setup_get_item(setup, i, &item) != PPM_STATUS_OK) continue;
+        json_t *const object = json_object();
+        json_object_set_new(object, "part", json_string(part_name(item.part)));
+        json_object_set_new(object, "name", text_json(item.name));
+        json_object_set_new(object, "detail", text_json(item.detail));
+        json_array_append_new(items, object);
+    }
+    json_object_set_new(root, "file", text_json(ppm_setup_path(setup)));
+    json_object_set_new(root, "items", items);
+    return root;
+}
+
+static int print_json(const ppm_asset *asset, const ppm_setup *setup, const char *path)
 {
     json_t *const root = json_object();
     json_object_set_new(root, "version", json_string(ppm_version()));
@@ -142,6 +193,7 @@ static int print_json(const ppm_asset *asset, const char *path)
     json_object_set_new(root, "light_units", text_json(ppm_asset_light_units(asset)));
     for (size_t i = 0; i < KIND_COUNT; i++)
         json_object_set_new(root, kinds[i].key, kind_json(asset, kinds[i].kind));
+    json_object_set_new(root, "setup", setup_json(setup));
     json_object_set_new(root, "features", features_json(asset));
     if (!root) return EXIT_RESOURCES;
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
@@ -150,13 +202,13 @@ static int print_json(const ppm_asset *asset, const char *path)
     return EXIT_DONE;
 }
 
-int list_print(const ppm_asset *asset, const char *path, int32_t format)
+int list_print(const ppm_asset *asset, const ppm_setup *setup, const char *path, int32_t format)
 {
     int result = EXIT_DONE;
     if (format == LIST_JSON) {
-        result = print_json(asset, path);
+        result = print_json(asset, setup, path);
     } else {
-        print_table(asset, path);
+        print_table(asset, setup, path);
     }
     return result == EXIT_DONE ? finish() : result;
 }

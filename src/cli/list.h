@@ -5,9 +5,10 @@
 #include <stdint.h>
 
 #include "ppm/asset.h"
+#include "ppm/setup.h"
 
-/* format is LIST_TABLE or LIST_JSON; path is INPUT. Returns EXIT_DONE, EXIT_RESOURCES, or
- * EXIT_OUTPUT when standard output does not take the text. */
-int list_print(const ppm_asset *asset, const char *path, int32_t format);
+/* format is LIST_TABLE or LIST_JSON; path is INPUT; setup may be NULL. Returns EXIT_DONE,
+ * EXIT_RESOURCES, or EXIT_OUTPUT when standard output does not take the text. */
+int list_print(const ppm_asset *asset, const ppm_setup *setup, const char *path, int32_t format);
 
 #endif

@@ -12,6 +12,7 @@
 #include "pictures.h"
 #include "ppm/ppm.h"
 #include "sequence.h"
+#include "setup_file.h"
 #include "signals.h"
 #include "stats_json.h"
 
@@ -32,11 +33,18 @@ static int open_library(cli_program *program)
 {
     const ppm_context_desc desc = {
         .size = sizeof desc, .log = console_log, .log_user = &program->console};
-    ppm_status status = ppm_context_create(&desc, &program->context);
-    if (status == PPM_STATUS_OK) {
-        status = ppm_color_create(program->context, program->options.ocio, &program->color);
-    }
-    return exit_status_of(status, EXIT_INPUT);
+    return exit_status_of(ppm_context_create(&desc, &program->context), EXIT_INPUT);
+}
+
+/* The setup file and what it says of options; then nothing is missing of them. */
+static int complete_options(cli_program *program, int argc, char **argv)
+{
+    cli_options *const options = &program->options;
+    if (options->action != ACTION_RENDER && options->action != ACTION_LIST) return EXIT_DONE;
+    const int result =
+        setup_file_open(&program->console, program->context, options, &program->input.setup);
+    if (result != EXIT_DONE) return result;
+    return cli_options_complete(argc, argv, program->input.setup, options);
 }
 
 static cli_sequence sequence_of(cli_program *program)
@@ -86,7 +94,8 @@ static int list(cli_program *program)
     const int result =
         input_open(&program->input, &program->console, program->context, &program->options, &still);
     if (result != EXIT_DONE) return result;
-    return list_print(program->input.asset, program->options.input, program->options.list);
+    return list_print(program->input.asset, program->input.setup, program->options.input,
+                      program->options.list);
 }
 
 static int run(cli_program *program, int argc, char **argv)
@@ -99,6 +108,11 @@ static int run(cli_program *program, int argc, char **argv)
     console_init(&program->console, program->options.verbosity);
 
     result = open_library(program);
+    if (result == EXIT_DONE) result = complete_options(program, argc, argv);
+    if (result == EXIT_DONE) {
+        result = exit_status_of(
+            ppm_color_create(program->context, program->options.ocio, &program->color), EXIT_INPUT);
+    }
     if (result != EXIT_DONE) return result;
     if (program->options.action == ACTION_LIST_VIEWS) return info_print_views(program->color);
     if (program->options.action == ACTION_LIST) return list(program);

@@ -44,21 +44,33 @@ void option_table_print_help(const option_table *table, FILE *stream)
 
 int option_give_hint(const option_table *table)
 {
+    if (table->source) return EXIT_INPUT;
     fprintf(stderr, "Try '%s --help'.\n", table->program);
     return EXIT_USAGE;
 }
 
+/* "program: error: --name: ", or the place in a setup file. */
+static void begin_complaint(const option_table *table, const option_row *row)
+{
+    if (table->source) {
+        fprintf(stderr, "%s: error: %s: render.%s: ", table->program, table->source, row->name);
+    } else {
+        fprintf(stderr, "%s: error: --%s: ", table->program, row->name);
+    }
+}
+
 int option_complain_of_all(const option_table *table, const char *message)
 {
-    fprintf(stderr, "%s: error: %s\n", table->program, message);
+    fprintf(stderr, "%s: error: %s%s%s\n", table->program, table->source ? table->source : "",
+            table->source ? ": " : "", message);
     return option_give_hint(table);
 }
 
 int option_complain(const option_table *table, const option_row *row, const char *value,
                     const char *expected)
 {
-    fprintf(stderr, "%s: error: --%s: '%s' is not %s\n", table->program, row->name, value,
-            expected);
+    begin_complaint(table, row);
+    fprintf(stderr, "'%s' is not %s\n", value, expected);
     return option_give_hint(table);
 }
 
@@ -68,18 +80,26 @@ static void suggest(const char *nearest, const char *dashes)
     fputc('\n', stderr);
 }
 
-static int unknown_long(const option_table *table, const char *word)
+/* name is what stands there; it is shown behind dashes, or in a setup file without. */
+static int unknown_name(const option_table *table, const char *name)
 {
-    char name[64];
+    const char *const dashes = table->source ? "" : "--";
     const char **const names = calloc(table->count, sizeof *names);
     if (!names) return EXIT_RESOURCES;
     for (size_t i = 0; i < table->count; i++)
         names[i] = table->rows[i].name;
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    fprintf(stderr, "%s: error: unknown option '--%s'", table->program, name);
-    suggest(ppmi_suggest(name, names, table->count), "--");
+    fprintf(stderr, "%s: error: %s%sunknown option '%s%s'", table->program,
+            table->source ? table->source : "", table->source ? ": render: " : "", dashes, name);
+    suggest(ppmi_suggest(name, names, table->count), dashes);
     free(names);
     return option_give_hint(table);
+}
+
+static int unknown_long(const option_table *table, const char *word)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+    return unknown_name(table, name);
 }
 
 static int unknown_letter(const option_table *table, int letter)
@@ -141,7 +161,8 @@ int option_store_choice(const option_table *table, const option_row *row, const 
         }
         names[count++] = each->name;
     }
-    fprintf(stderr, "%s: error: --%s: '%s' is not one of", table->program, row->name, name);
+    begin_complaint(table, row);
+    fprintf(stderr, "'%s' is not one of", name);
     for (size_t i = 0; i < count; i++)
         fprintf(stderr, "%s %s", i ? "," : "", names[i]);
     suggest(ppmi_suggest(name, names, count), "");
@@ -168,6 +189,20 @@ static int store(const option_table *table, const option_row *row, const char *t
         return option_store_choice(table, row, text, strlen(text), field);
     }
     return table->store_own(table, row, text, options);
+}
+
+int option_table_store(const option_table *table, const char *name, const char *value,
+                       void *options)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const option_row *const row = &table->rows[i];
+        if (strcmp(row->name, name) != 0) continue;
+        if (row->kind == OPTION_SET && *value) {
+            return option_complain(table, row, value, "true or false");
+        }
+        return store(table, row, row->kind == OPTION_SET ? NULL : value, options);
+    }
+    return unknown_name(table, name);
 }
 
 /* ---- parsing --------------------------------------------------------------------------------- */

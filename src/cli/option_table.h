@@ -43,7 +43,8 @@ typedef struct option_row {
 
 typedef struct option_table {
     const char *program;
-    int help_column; /* where the texts of the help begin */
+    const char *source; /* a setup file that the values come from; NULL: the command line */
+    int help_column;    /* where the texts of the help begin */
     const option_row *rows;
     size_t count;
     /* Stores a value of one of the program's own kinds; text is NULL where it is missing. Returns
@@ -58,9 +59,16 @@ typedef struct option_table {
  * other words. Returns EXIT_DONE, EXIT_USAGE or EXIT_RESOURCES. */
 int option_table_parse(const option_table *table, int argc, char **argv, void *options);
 
+/* Stores one value by the long name of its option, as the command line would; "" is none. What is
+ * wrong is told as of "render" in table->source. Returns EXIT_DONE, EXIT_INPUT or EXIT_RESOURCES.
+ */
+int option_table_store(const option_table *table, const char *name, const char *value,
+                       void *options);
+
 void option_table_print_help(const option_table *table, FILE *stream);
 
-/* Each says what is wrong and returns EXIT_USAGE. expected completes "'value' is not ...". */
+/* Each says what is wrong and returns EXIT_USAGE, of a setup file EXIT_INPUT. expected completes
+ * "'value' is not ...". */
 int option_complain(const option_table *table, const option_row *row, const char *value,
                     const char *expected);
 int option_complain_of_all(const option_table *table, const char *message);

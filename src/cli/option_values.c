@@ -38,7 +38,7 @@ static int store_fog(const option_table *table, const option_row *row, const cha
                                "like 0.1,0.01 or 0.1,0.01,0.5: two coefficients of at least 0 and "
                                "a number between -1 and 1");
     }
-    *field = (fog_values){values[0], values[1], values[2]};
+    *field = (fog_values){values[0], values[1], values[2], true};
     return EXIT_DONE;
 }
 

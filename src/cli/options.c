@@ -8,6 +8,7 @@
 
 #include "option_values.h"
 #include "ppm/ppm.h"
+#include "setup_file.h"
 
 enum { DEFAULT_PASSES = 256, DEFAULT_PHOTONS_PER_EPOCH = 10000000, DEFAULT_FPS = 24 };
 
@@ -64,6 +65,9 @@ static const option_row rows[] = {
      .help = "refuse a file that uses something which is not supported"},
     {"allow-outside", 0, OPTION_SET, FIELD(allows_outside), .set = 1,
      .help = "read files that INPUT names outside of its folder"},
+    {"setup", 0, OPTION_TEXT, FIELD(setup), .argument = "FILE|none",
+     .help = "cameras, lights, materials and render options of INPUT (default:\n"
+             "its name with .ppm.json, if that is there)"},
 
     {"frame", 0, VALUE_FRAME, FIELD(frames), .argument = "N", .group = "Animation",
      .help = "the moment N / fps seconds into the animations (default: the\n"
@@ -234,8 +238,8 @@ void cli_options_print_help(FILE *stream)
           stream);
 }
 
-/* An option that would do nothing is a mistake. */
-static int check_together(const cli_options *options)
+/* What is wrong with options together, or NULL. An option that would do nothing is a mistake. */
+static const char *fault_together(const cli_options *options)
 {
     const bool has_sky = options->environment || options->sun.is_given;
     const bool has_frames = options->frames.is_given;
@@ -244,6 +248,7 @@ static int check_together(const cli_options *options)
         bool is_idle;
         const char *message;
     } rules[] = {
+        {options->epochs > 0 && options->passes > 0, "--epochs and --passes both say when to stop"},
         {options->environment_rotation_deg != 0.0 && !options->environment,
          "--env-rotation turns the picture of --env, which is not given"},
         {options->environment_intensity > 0.0 && !has_sky,
@@ -254,13 +259,21 @@ static int check_together(const cli_options *options)
          "--animation is played by --frame and --frames, neither of which is given"},
         {options->motion_steps > 0 && !has_blur,
          "--motion-steps is about --shutter with --frame or --frames, which are not all given"},
-        {options->epochs > 0 && options->passes > 0, "--epochs and --passes both say when to stop"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
-        if (!rules[i].is_idle) continue;
-        return option_complain_of_all(&table, rules[i].message);
+        if (rules[i].is_idle) return rules[i].message;
     }
-    return EXIT_DONE;
+    return NULL;
+}
+
+/* words is the command line alone: what a setup file says for the case that there are frames is no
+ * mistake where there are none. */
+static int check_together(const cli_options *words, const cli_options *options)
+{
+    const char *const fault = fault_together(options);
+    const bool is_torn = options->epochs > 0 && options->passes > 0;
+    if (!fault || (!is_torn && !fault_together(words))) return EXIT_DONE;
+    return option_complain_of_all(&table, fault);
 }
 
 /* "all" is a word, whatever the file calls its cameras and animations; those have numbers, too. */
@@ -317,10 +330,31 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
     const int32_t action = out_options->action;
     const bool needs_input = action == ACTION_RENDER || action == ACTION_LIST;
     if (status != EXIT_DONE || !needs_input) return status;
-    status = take_input(argc, argv, out_options);
-    if (status == EXIT_DONE) status = check_together(out_options);
-    take_all(out_options);
-    fill_defaults(out_options);
+    return take_input(argc, argv, out_options);
+}
+
+/* The setup's options first, then the words of argv once more. */
+static int take_setup(int argc, char **argv, const ppm_setup *setup, const cli_options *words,
+                      cli_options *options)
+{
+    *options = (cli_options){.outputs = words->outputs};
+    int status = setup_file_store(&table, setup, words, options);
+    optind = 0; /* glibc: begin again */
+    if (status == EXIT_DONE) status = option_table_parse(&table, argc, argv, options);
+    if (status == EXIT_DONE) status = take_input(argc, argv, options);
+    return status;
+}
+
+int cli_options_complete(int argc, char **argv, const ppm_setup *setup, cli_options *options)
+{
+    const cli_options words = *options;
+    int status = EXIT_DONE;
+    if (ppm_setup_option_count(setup) > 0) {
+        status = take_setup(argc, argv, setup, &words, options);
+    }
+    if (status == EXIT_DONE) status = check_together(&words, options);
+    take_all(options);
+    fill_defaults(options);
     return status;
 }
 

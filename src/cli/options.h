@@ -9,6 +9,7 @@
 
 #include "exit_status.h"
 #include "frames.h"
+#include "ppm/setup.h"
 
 enum { ACTION_RENDER = 0, ACTION_HELP, ACTION_VERSION, ACTION_LIST_VIEWS, ACTION_LIST };
 enum { LIST_NONE = 0, LIST_TABLE, LIST_JSON };
@@ -21,6 +22,7 @@ typedef struct image_size {
 /* --fog: coefficients by metre, and the mean cosine of scattering. */
 typedef struct fog_values {
     double sigma_s, sigma_a, g;
+    bool is_given;
 } fog_values;
 /* What the camera sees straight ahead where nothing is. */
 enum { BACKGROUND_UNSAID = 0, BACKGROUND_ENVIRONMENT, BACKGROUND_RADIANCE };
@@ -71,6 +73,7 @@ typedef struct cli_options {
     const char *variant; /* a name */
     int32_t is_strict;
     int32_t allows_outside;
+    const char *setup; /* a path; "none"; NULL: the one beside input, if there is one */
 
     frame_choice frames;   /* by --frame or --frames */
     double fps;            /* a default has been filled in */
@@ -127,6 +130,12 @@ typedef struct cli_options {
 /* Reads argv. What is wrong is said on standard error. Returns EXIT_DONE, EXIT_USAGE or
  * EXIT_RESOURCES; cli_options_deinit is due in every case. */
 int cli_options_parse(int argc, char **argv, cli_options *out_options);
+
+/* The second half, for options that are to render or to list: takes in the render options of a
+ * setup file (NULL: none), over which the words of argv win, checks what they mean together and
+ * fills in defaults. Strings of the setup are borrowed. Returns as above, or EXIT_INPUT for what is
+ * wrong in the setup file. */
+int cli_options_complete(int argc, char **argv, const ppm_setup *setup, cli_options *options);
 void cli_options_deinit(cli_options *options);
 
 void cli_options_print_help(FILE *stream);

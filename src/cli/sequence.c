@@ -7,6 +7,7 @@
 
 #include "clock.h"
 #include "render_picture.h"
+#include "setup_file.h"
 #include "signals.h"
 
 /* How far it is. */
@@ -59,6 +60,7 @@ static int record(const cli_sequence *s, const picture_task *task, const ppm_ren
                   const run_state *state)
 {
     const stats_source source = {.asset = s->input->asset,
+                                 .setup = s->input->setup,
                                  .scene = s->input->scene,
                                  .picture = task->picture,
                                  .outputs = s->outputs,
@@ -102,10 +104,12 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
     if (result != EXIT_DONE) return result;
     outputs_set_origin(s->outputs, s->input->asset);
     if (state->left > 0) state->left--;
+    cli_picture shown = *picture; /* by the setup's camera, where nothing says another */
+    if (shown.camera == 0) shown.camera = ppm_setup_camera(s->input->setup);
     const picture_task task = {
         .console = s->console,
         .options = s->options,
-        .picture = picture,
+        .picture = &shown,
         .scene = s->input->scene,
         .outputs = s->outputs,
         .is_whole_or_nothing = is_sequence(s) || s->options->skips_existing,
@@ -151,9 +155,9 @@ static int render_all(const cli_sequence *s, run_state *state)
  * the camera that frames it. */
 static int take_cameras(const cli_sequence *s, run_state *state, cli_picture *first)
 {
-    if (!s->options->all_cameras || ppm_asset_count(s->input->asset, PPM_ASSET_CAMERAS) == 0) {
-        return EXIT_DONE;
-    }
+    const bool has_cameras = ppm_asset_count(s->input->asset, PPM_ASSET_CAMERAS) > 0 ||
+                             setup_file_has_cameras(s->input->setup);
+    if (!s->options->all_cameras || !has_cameras) return EXIT_DONE;
     int result = input_set_moment(s->input, s->console, s->color, s->context, s->options, first);
     if (result == EXIT_DONE) result = pictures_take_cameras(s->pictures, s->input->scene);
     if (result != EXIT_DONE) return result;

@@ -17,6 +17,22 @@ static float intensity_of(const cli_options *options)
     return options->environment_intensity > 0.0 ? (float)options->environment_intensity : 1.0f;
 }
 
+/* Where only the backdrop is asked for, the file or its setup may have surroundings: they stay. */
+static ppm_status keep_surroundings(const ppm_scene *scene, ppm_environment_desc *environment,
+                                    bool *out_is_kept)
+{
+    ppm_environment_desc before = {.size = sizeof before};
+    const ppm_status status = ppm_scene_get_environment(scene, &before);
+    *out_is_kept =
+        before.radiance[0] > 0.0f || before.radiance[1] > 0.0f || before.radiance[2] > 0.0f;
+    if (!*out_is_kept) return status;
+    environment->image = before.image;
+    environment->rotation_rad = before.rotation_rad;
+    for (int i = 0; i < 3; i++)
+        environment->radiance[i] = before.radiance[i];
+    return status;
+}
+
 /* The radiance of all directions while no picture and no sky is asked for. A file without any light
  * gets an even one; the library would add it by itself, with a backdrop of its own. */
 static ppm_status default_radiance(const ppm_scene *scene, const cli_options *options,
@@ -38,7 +54,8 @@ static ppm_status set_environment(ppm_scene *scene, const cli_options *options)
         .backdrop = {background->radiance[0], background->radiance[1], background->radiance[2]},
     };
     float radiance = intensity_of(options);
-    ppm_status status;
+    bool is_kept = false;
+    ppm_status status = PPM_STATUS_OK;
     if (options->environment) {
         const ppm_image_desc image = {.size = sizeof image,
                                       .name = options->environment,
@@ -46,10 +63,11 @@ static ppm_status set_environment(ppm_scene *scene, const cli_options *options)
                                       .path = options->environment};
         status = ppm_scene_add_image(scene, &image, &environment.image);
     } else {
-        status = default_radiance(scene, options, &radiance);
+        status = keep_surroundings(scene, &environment, &is_kept);
+        if (status == PPM_STATUS_OK) status = default_radiance(scene, options, &radiance);
     }
     if (status != PPM_STATUS_OK) return status;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && !is_kept; i++)
         environment.radiance[i] = radiance;
     return ppm_scene_set_environment(scene, &environment);
 }
@@ -73,7 +91,7 @@ static ppm_status add_fog(ppm_scene *scene, const fog_values *fog)
                                .sigma_s = {s, s, s},
                                .sigma_a = {a, a, a},
                                .asymmetry_g = (float)fog->g};
-    return s > 0.0f || a > 0.0f ? ppm_scene_set_fog(scene, &desc) : PPM_STATUS_OK;
+    return fog->is_given ? ppm_scene_set_fog(scene, &desc) : PPM_STATUS_OK;
 }
 
 ppm_status setup_surroundings(ppm_scene *scene, const cli_options *options)

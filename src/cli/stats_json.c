@@ -234,6 +234,8 @@ static json_t *root_json(const cli_stats *stats, const stats_source *source, jso
     json_t *const root = json_object();
     json_object_set_new(root, "version", json_string(ppm_version()));
     json_object_set_new(root, "scene", scene_json(source->scene));
+    json_object_set_new(root, "setup",
+                        source->setup ? text_json(ppm_setup_path(source->setup)) : json_null());
     json_object_set_new(root, "features", features_json(source->asset));
     if (!stats->is_list) {
         json_object_update(root, picture);

@@ -19,6 +19,7 @@ typedef struct cli_stats {
 
 typedef struct stats_source {
     const ppm_asset *asset;
+    const ppm_setup *setup; /* or NULL */
     const ppm_scene *scene;
     const cli_picture *picture;
     const cli_outputs *outputs;

@@ -20,6 +20,7 @@ set(compare_uses compare imageio cli/option_table.h cli/values.h cli/exit_status
 set(tangent_uses tangent ${base_uses})
 set(gltf_uses gltf tangent ${base_uses})
 set(obj_uses obj tangent ${base_uses})
+set(setup_uses setup gltf/ies.h ${base_uses})
 
 set(embree_seen_by accel)
 set(OpenImageIO_seen_by imageio)
@@ -29,7 +30,7 @@ set(draco_seen_by gltf)
 set(meshoptimizer_seen_by gltf)
 set(tiny_obj_loader_seen_by obj)
 set(tinyobj_seen_by obj)
-set(jansson_seen_by cli compare)
+set(jansson_seen_by cli compare setup)
 
 set(faults "")
 function(check_file folder file)
