@@ -35,7 +35,7 @@ typedef struct ppmi_light_pass {
     float radius_m;         /* 0: it had no visible point */
 } ppmi_light_pass;
 
-/* scratch_planes: sets of planes that a thread needs. Where the options ask for nothing, nothing is
+/* scratch_sets: of planes that a thread needs. Where the options ask for nothing, nothing is
  * kept. Returns OK, OUT_OF_MEMORY. */
 ppm_status ppmi_light_film_init(const ppmi_job *job, size_t scratch_sets, ppmi_light_film *film);
 void ppmi_light_film_deinit(const ppmi_job *job, ppmi_light_film *film);
@@ -53,6 +53,13 @@ static inline bool ppmi_light_film_has_planes(const ppmi_light_film *film)
 
 /* The calling thread's sets of planes, all black. */
 ppmi_vec3 *ppmi_light_film_clear_scratch(const ppmi_light_film *film);
+
+/* Planes of one of the scratch's sets. */
+static inline ppmi_vec3 *ppmi_light_film_set(const ppmi_light_film *film, ppmi_vec3 *scratch,
+                                             size_t set)
+{
+    return scratch + set * film->planes.count;
+}
 
 /* A sink into planes of a pixel. */
 ppmi_light_sink ppmi_light_film_sink(const ppmi_light_film *film, ppmi_vec3 *planes,

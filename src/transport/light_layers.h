@@ -62,6 +62,13 @@ static inline ppmi_eye_history ppmi_eye_history_start(void)
     return (ppmi_eye_history){0};
 }
 
+/* The class at the first vertex of a path that came over lobes of one side that do not gather, as a
+ * photon mapper's do; 0: it has no vertex yet. */
+static inline int32_t ppmi_eye_history_class(const ppmi_eye_history *history)
+{
+    return history->classes[1] != 0 ? history->classes[1] : history->classes[0];
+}
+
 /* The path goes on at a surface or in a medium along wi, by the lobes in mask of which none, or the
  * one that was drawn, is delta. */
 void ppmi_eye_history_scatter(ppmi_eye_history *history, const ppmi_bsdf *bsdf,
