@@ -126,11 +126,11 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
 {
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
+    if (status == PPM_STATUS_OK) status = allocate_tables(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
-    if (status == PPM_STATUS_OK) status = allocate_tables(r);
     return status;
 }
 
