@@ -59,7 +59,9 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
 
                  {PPMI_GLTF_AREA_LIGHTS, d->area_light_count},
                  {PPMI_GLTF_LIGHT_PROFILES, d->profile_count},
-                 {PPMI_GLTF_IMAGE_LIGHTS, d->image_light_count}};
+                 {PPMI_GLTF_IMAGE_LIGHTS, d->image_light_count},
+                 {PPMI_GLTF_CUBEMAPS, d->cubemap_count},
+                 {PPMI_GLTF_ENVIRONMENT_MAPS, d->environment_map_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,

@@ -143,7 +143,10 @@ static const gltf_field node[] = {
     OBJECT("extensions", node_extensions),
     FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = node_extras),
     END};
-static const gltf_field scene_extensions[] = {OBJECT("EXT_lights_image_based", node_light), END};
+static const gltf_field scene_environment[] = {INDEX("environment_map", GLTF_REQUIRED), END};
+static const gltf_field scene_extensions[] = {OBJECT("EXT_lights_image_based", node_light),
+                                              OBJECT("KHR_environment_map", scene_environment),
+                                              END};
 static const gltf_field scene[] = {
     STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX),
     OBJECT("extensions", scene_extensions), END};
@@ -226,6 +229,17 @@ static const gltf_field light_profile[] = {
 static const gltf_field image_light[] = {STRING("name"), NUMBER("intensity"),
                                          NUMBERS("rotation", 4, 0), NUMBER("specularImageSize"),
                                          END};
+
+/* KHR_environment_map, by the text of its draft; its schema files have other names */
+static const gltf_field cubemap[] = {INDEX("source", GLTF_VITAL | GLTF_REQUIRED), INDEX("layer", 0),
+                                     NUMBER("intensity"), END};
+static const gltf_field environment_map[] = {STRING("name"),
+                                             INDEX("cubemap", 0),
+                                             NUMBER("irradianceFactor"),
+                                             NUMBERS("boundingBoxMin", 3, 0),
+                                             NUMBERS("boundingBoxMax", 3, 0),
+                                             NUMBER("ior"),
+                                             END};
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
@@ -349,14 +363,22 @@ static const gltf_field light_profiles[] = {
     LIST("lights", PPMI_GLTF_LIGHT_PROFILES, GLTF_KEEPS_EMPTY, light_profile, "{\"_\":0}"), END};
 static const gltf_field image_lights[] = {
     LIST("lights", PPMI_GLTF_IMAGE_LIGHTS, GLTF_KEEPS_EMPTY, image_light, "{\"_\":0}"), END};
+static const gltf_field environment_maps[] = {
+    LIST("cubemaps", PPMI_GLTF_CUBEMAPS, GLTF_KEEPS_EMPTY, cubemap, "{\"_\":0}"),
+    LIST("environment_maps", PPMI_GLTF_ENVIRONMENT_MAPS, GLTF_KEEPS_EMPTY, environment_map,
+         "{\"_\":0}"),
+    END};
 static const gltf_field variant[] = {
     FIELD("name", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field variants[] = {
     LIST("variants", PPMI_GLTF_VARIANTS, 0, variant, "{\"name\":\"\"}"), END};
-static const gltf_field root_extensions[] = {
-    OBJECT("KHR_lights_punctual", punctual),    OBJECT("EXT_lights_area", area_lights),
-    OBJECT("EXT_lights_ies", light_profiles),   OBJECT("EXT_lights_image_based", image_lights),
-    OBJECT("KHR_materials_variants", variants), END};
+static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual),
+                                             OBJECT("EXT_lights_area", area_lights),
+                                             OBJECT("EXT_lights_ies", light_profiles),
+                                             OBJECT("EXT_lights_image_based", image_lights),
+                                             OBJECT("KHR_environment_map", environment_maps),
+                                             OBJECT("KHR_materials_variants", variants),
+                                             END};
 static const gltf_field asset_xmp[] = {INDEX("packet", 0), END};
 static const gltf_field asset_extensions[] = {OBJECT("KHR_xmp_json_ld", asset_xmp), END};
 static const gltf_field asset[] = {

@@ -122,6 +122,9 @@ static ppm_status check_shape(const header *h, ppmi_ktx2 *out)
     if (h->height == 0 || h->depth > 0 || (h->faces != 1 && h->faces != 6)) {
         return fail(out, PPM_STATUS_INPUT_UNSUPPORTED, "it is neither a flat picture nor a cube");
     }
+    if (h->faces == 6 && h->width != h->height) {
+        return fail(out, PPM_STATUS_INPUT_INVALID, "its cube has faces that are not square");
+    }
     out->width = h->width;
     out->height = h->height;
     out->layers = h->layers > 0 ? h->layers : 1;
