@@ -304,6 +304,12 @@ static const gltf_field specular_glossiness[] = {NUMBERS("diffuseFactor", 4, 0),
 static const gltf_field volume_scatter[] = {
     NUMBERS("multiscatterColor", 3, 0), NUMBERS("multiscatterColorFactor", 3, 0),
     OBJECT("multiscatterColorTexture", texture_info), NUMBER("scatterAnisotropy"), END};
+static const gltf_field scatter[] = {NUMBER("scatterStrengthFactor"),
+                                     OBJECT("scatterStrengthTexture", texture_info),
+                                     NUMBERS("multiscatterColorFactor", 3, 0),
+                                     OBJECT("multiscatterColorTexture", texture_info),
+                                     NUMBER("scatterAnisotropy"),
+                                     END};
 static const gltf_field material_extensions[] = {
     OBJECT("EXT_materials_retroreflection", retroreflection),
     OBJECT("KHR_materials_anisotropy", anisotropy),
@@ -315,6 +321,7 @@ static const gltf_field material_extensions[] = {
     OBJECT("KHR_materials_iridescence", iridescence),
     OBJECT("KHR_materials_pbrSpecularGlossiness", specular_glossiness),
     OBJECT("KHR_materials_retroreflection", retroreflection),
+    OBJECT("KHR_materials_scatter", scatter),
     OBJECT("KHR_materials_sheen", sheen),
     OBJECT("KHR_materials_specular", specular),
     OBJECT("KHR_materials_transmission", transmission),

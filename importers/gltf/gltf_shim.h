@@ -266,6 +266,9 @@ typedef struct ppmi_gltf_scattering {
     ppmi_gltf_texture_info diffuse_transmission_texture, diffuse_transmission_color_texture;
     double multiscatter_color[3], scatter_anisotropy;
     ppmi_gltf_texture_info multiscatter_color_texture;
+    bool is_scatter;         /* KHR_materials_scatter; else KHR_materials_volume_scatter */
+    double scatter_strength; /* 1 for the latter */
+    ppmi_gltf_texture_info scatter_strength_texture;
 } ppmi_gltf_scattering;
 
 typedef struct ppmi_gltf_specular_glossiness {
