@@ -487,7 +487,7 @@ ppmi_gltf_editable ppmi_gltf_document_edit(const ppmi_gltf_document *document)
     // every document is made above, and is not const there
     auto *d = const_cast<Document *>(static_cast<const Document *>(document));
     return {d->node_items.data(), d->material_items.data(), d->camera_items.data(),
-            d->light_items.data()};
+            d->light_items.data(), d->area_light_items.data()};
 }
 
 void ppmi_gltf_document_destroy(const ppmi_gltf_document *document)

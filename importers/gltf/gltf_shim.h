@@ -351,6 +351,7 @@ typedef struct ppmi_gltf_editable {
     ppmi_gltf_material *materials;
     ppmi_gltf_camera *cameras;
     ppmi_gltf_light *lights;
+    ppmi_gltf_area_light *area_lights;
 } ppmi_gltf_editable;
 ppmi_gltf_editable ppmi_gltf_document_edit(const ppmi_gltf_document *document);
 
