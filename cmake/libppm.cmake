@@ -11,7 +11,8 @@ function(ppm_libppm target directory)
         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_link_libraries(${target} PRIVATE ppm::flags ${PPM_OCIO_TARGET} OpenImageIO::OpenImageIO
-        ${PPM_TINYGLTF_TARGET} meshoptimizer::meshoptimizer ${PPM_DRACO_TARGET} ${PPM_TINYOBJ_TARGET} PkgConfig::JANSSON embree OpenMP::OpenMP_C Threads::Threads m)
+        ${PPM_TINYGLTF_TARGET} meshoptimizer::meshoptimizer ${PPM_DRACO_TARGET} ppm::unpack ${PPM_TINYOBJ_TARGET}
+        PkgConfig::JANSSON embree OpenMP::OpenMP_C Threads::Threads m)
     # Hidden visibility is not enough: libstdc++ marks its own templates as visible.
     target_link_options(${target} PRIVATE
         LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/libppm.map)

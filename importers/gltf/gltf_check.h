@@ -26,9 +26,11 @@ enum {
     PPMI_GLTF_SAMPLERS,
     PPMI_GLTF_CAMERAS,
     PPMI_GLTF_LIGHTS,
-    PPMI_GLTF_AREA_LIGHTS,    /* EXT_lights_area */
-    PPMI_GLTF_LIGHT_PROFILES, /* EXT_lights_ies */
-    PPMI_GLTF_IMAGE_LIGHTS,   /* EXT_lights_image_based */
+    PPMI_GLTF_AREA_LIGHTS,      /* EXT_lights_area */
+    PPMI_GLTF_LIGHT_PROFILES,   /* EXT_lights_ies */
+    PPMI_GLTF_IMAGE_LIGHTS,     /* EXT_lights_image_based */
+    PPMI_GLTF_CUBEMAPS,         /* KHR_environment_map */
+    PPMI_GLTF_ENVIRONMENT_MAPS, /* KHR_environment_map */
     PPMI_GLTF_ANIMATIONS,
     PPMI_GLTF_SKINS,
     PPMI_GLTF_VARIANTS,

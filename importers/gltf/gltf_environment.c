@@ -90,7 +90,7 @@ static void fill_smooth(const ppmi_gltf_image_light *light, uint32_t width, uint
     }
 }
 
-static ppm_status set_smooth(ppmi_gltf_reader *reader, const ppmi_gltf_image_light *light)
+ppm_status ppmi_gltf_set_harmonics(ppmi_gltf_reader *reader, const ppmi_gltf_image_light *light)
 {
     float pixels[3 * 2 * SMOOTH_ROWS * SMOOTH_ROWS];
     const float intensity = (float)light->intensity;
@@ -131,7 +131,7 @@ ppm_status ppmi_gltf_import_environment(ppmi_gltf_reader *reader)
     char place[PPMI_GLTF_PLACE], inner[PPMI_GLTF_PLACE];
     if ((size_t)scene >= document->scene_count) return PPM_STATUS_OK;
     const int32_t index = document->scenes[scene].image_light;
-    if (index < 0) return PPM_STATUS_OK;
+    if (index < 0) return ppmi_gltf_import_environment_map(reader);
     ppmi_gltf_place(place, "scenes[%d].extensions.EXT_lights_image_based.light", (int)scene);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_IMAGE_LIGHTS, index, place)) return PPM_STATUS_OK;
     const ppmi_gltf_image_light *light = &document->image_lights[index];
@@ -148,7 +148,7 @@ ppm_status ppmi_gltf_import_environment(ppmi_gltf_reader *reader)
     if (has_all) return set_cube(reader, light, faces);
     if (light->has_irradiance) {
         ppmi_gltf_warn(reader, inner, "its images are not complete: lit by its harmonics");
-        return set_smooth(reader, light);
+        return ppmi_gltf_set_harmonics(reader, light);
     }
     ppmi_gltf_warn(reader, inner, "left out: its images are not complete");
     return PPM_STATUS_OK;

@@ -45,8 +45,8 @@ static const struct {
     {"KHR_audio_graph", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_collision_shapes", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_draco_mesh_compression", PPM_FEATURE_HONOURED, ""},
-    {"KHR_environment_map", PPM_FEATURE_IGNORED,
-     "its cube maps are KTX2 files; give a picture by --env"},
+    {"KHR_environment_map", PPM_FEATURE_HONOURED,
+     "the draft; bounding boxes are not used (warned about), the cube is infinitely far away"},
     {"KHR_gaussian_splatting", PPM_FEATURE_APPROXIMATED, "splats are shown as points"},
     {"KHR_implicit_shapes", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_interactivity", PPM_FEATURE_APPROXIMATED,
@@ -62,8 +62,7 @@ static const struct {
     {"KHR_materials_pbrSpecularGlossiness", PPM_FEATURE_HONOURED,
      "as a dielectric whose reflectance along the normal is the specular colour"},
     {"KHR_materials_retroreflection", PPM_FEATURE_HONOURED, "the draft of 2026"},
-    {"KHR_materials_scatter", PPM_FEATURE_IGNORED,
-     "a proposal; KHR_materials_diffuse_transmission and _volume_scatter are read"},
+    {"KHR_materials_scatter", PPM_FEATURE_HONOURED, "the draft of 2026"},
     {"KHR_materials_sheen", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_specular", PPM_FEATURE_HONOURED, ""},
     {"KHR_materials_transmission", PPM_FEATURE_HONOURED, ""},
@@ -80,8 +79,8 @@ static const struct {
     {"KHR_node_visibility", PPM_FEATURE_HONOURED, ""},
     {"KHR_physics_rigid_bodies", PPM_FEATURE_APPROXIMATED,
      "nothing is simulated: bodies are where the file places them"},
-    {"KHR_texture_basisu", PPM_FEATURE_IGNORED,
-     "the textures are KTX2 files; write them as PNG, JPEG or WebP"},
+    {"KHR_texture_basisu", PPM_FEATURE_APPROXIMATED,
+     "KTX2 files of plain and BC formats are read; of Basis Universal the fallback image, if any"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
     {"KHR_xmp", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet, into the EXR's metadata"},
@@ -133,6 +132,26 @@ static void note(ppmi_gltf_reader *reader, const char *const *names, size_t coun
     }
 }
 
+/* Whether all textures have an image that can be read: else, where KHR_texture_basisu is required,
+ * the file would be shown without them. */
+static ppm_status check_ktx2(ppmi_gltf_reader *reader, size_t required)
+{
+    const ppmi_gltf_document *document = reader->document;
+    char encoding[64];
+    for (size_t i = 0; i < document->texture_count; ++i) {
+        const ppmi_gltf_texture *texture = &document->textures[i];
+        const bool has_other = texture->source >= 0 || texture->webp_source >= 0 ||
+                               texture->avif_source >= 0 || texture->dds_source >= 0;
+        if (has_other || texture->basisu_source < 0) continue;
+        if (!ppmi_gltf_image_is_unread(reader, texture->basisu_source, encoding)) continue;
+        return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
+                         "%s: extensionsRequired[%zu]: KHR_texture_basisu: images[%d] is %s, which "
+                         "is not supported; write it as PNG, JPEG or WebP",
+                         reader->path, required, (int)texture->basisu_source, encoding);
+    }
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
@@ -140,6 +159,10 @@ ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
     for (size_t i = 0; i < document->required_count; ++i) {
         const char *name = document->extensions_required[i];
         const size_t row = find_row(name);
+        if (strcmp(name, "KHR_texture_basisu") == 0) {
+            const ppm_status status = check_ktx2(reader, i);
+            if (status != PPM_STATUS_OK) return status;
+        }
         if (row < ROW_COUNT && rows[row].verdict != PPM_FEATURE_IGNORED) continue;
         ppmi_gltf_printable(name, strlen(name), shown, sizeof shown);
         return refuse(reader, i, shown, row);

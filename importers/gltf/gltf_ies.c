@@ -119,7 +119,7 @@ ppm_status ppmi_gltf_add_ies_light(ppmi_gltf_reader *reader, int32_t node, const
     if (!fault) fault = ppmi_gltf_rigid_transform(world, true, desc.transform);
     if (fault) {
         ppmi_gltf_warn(reader, place, "left out: lights[%d]: %s", (int)from->profile, fault);
-        return PPM_STATUS_OK;
+        return ppmi_gltf_darken_light(reader, node, PPMI_GLTF_WAY_IES);
     }
     if (from->lamp.radius_m >= 0.0 && from->lamp.radius_m < 1e15) {
         desc.radius_m = (float)from->lamp.radius_m;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "gltf/gltf_ktx2.h"
 #include "gltf/gltf_reader.h"
 #include "gltf/gltf_uri.h"
 
@@ -35,6 +36,7 @@ typedef struct source {
     ppm_status status;
     char shown[64];     /* its URI, for messages */
     const char *reason; /* why it cannot be had */
+    char ktx2_reason[PPMI_KTX2_REASON];
 } source;
 
 /* Fills in bytes or path from a URI. */
@@ -78,16 +80,33 @@ static ppm_status locate(ppmi_gltf_reader *reader, const ppmi_gltf_source *from,
     return status;
 }
 
-static void prepare(ppmi_gltf_reader *reader, size_t use, source *s)
+/* Where the image is: its file, or the bytes of it. */
+static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
 {
-    const size_t index = use / 2;
-    *s = (source){
-        .desc = {.size = sizeof s->desc, .role = use % 2 == 1 ? PPM_IMAGE_DATA : PPM_IMAGE_COLOR}};
+    *s = (source){.desc = {.size = sizeof s->desc, .role = role}};
     ppmi_gltf_place(s->place, "images[%zu]", index);
     snprintf(s->name, sizeof s->name, "%s: %s", reader->path, s->place);
     s->desc.name = s->name;
     s->status = locate(reader, &reader->outline.images.items[index], s->place, s);
     if (s->status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, s->place);
+}
+
+/* After a KTX file has been opened: why that went wrong, or what is to be said about it. */
+static void note_ktx2(ppmi_gltf_reader *reader, source *s, const char *note)
+{
+    if (note) ppmi_gltf_warn(reader, s->place, "%s", note);
+    if (s->status != PPM_STATUS_OK) s->reason = s->ktx2_reason;
+    if (s->status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, s->place);
+}
+
+static void prepare(ppmi_gltf_reader *reader, size_t use, source *s)
+{
+    const char *note = NULL;
+    find(reader, use / 2, use % 2 == 1 ? PPM_IMAGE_DATA : PPM_IMAGE_COLOR, s);
+    if (s->status != PPM_STATUS_OK || !ppmi_gltf_is_ktx2(&s->desc)) return;
+    s->status =
+        ppmi_gltf_unwrap_picture(reader->context, &s->desc, &s->owned, &note, s->ktx2_reason);
+    note_ktx2(reader, s, note);
 }
 
 /* Adds those of the sources that have been located. */
@@ -159,6 +178,47 @@ ppm_status ppmi_gltf_use_image(ppmi_gltf_reader *reader, int32_t index, int32_t 
     }
     *out_id = reader->images[use].id;
     return status;
+}
+
+ppm_status ppmi_gltf_use_cube(ppmi_gltf_reader *reader, int32_t index, uint32_t layer,
+                              const char *place, ppm_image_id faces[6])
+{
+    ppm_image_desc descs[6];
+    void *owned[6] = {0};
+    ppm_status statuses[6];
+    const char *note = NULL;
+    source s;
+    memset(faces, 0, 6 * sizeof *faces);
+    if (!ppmi_gltf_accept(reader, PPMI_GLTF_IMAGES, index, place)) return PPM_STATUS_OK;
+    find(reader, (size_t)index, PPM_IMAGE_COLOR, &s);
+    if (s.status == PPM_STATUS_OK) {
+        s.status = ppmi_gltf_unwrap_cube(reader->context, &s.desc, layer, descs, owned, &note,
+                                         s.ktx2_reason);
+        note_ktx2(reader, &s, note);
+    }
+    if (s.status == PPM_STATUS_OK) {
+        s.status = ppm_scene_add_images(reader->scene, descs, 6, faces, statuses);
+    }
+    for (int i = 0; i < 6; ++i) {
+        if (s.status == PPM_STATUS_OK) s.status = statuses[i];
+        ppmi_free(reader->context, owned[i]);
+    }
+    if (s.status != PPM_STATUS_OK) memset(faces, 0, 6 * sizeof *faces);
+    ppmi_free(reader->context, s.owned);
+    return conclude(reader, &s);
+}
+
+bool ppmi_gltf_image_is_unread(ppmi_gltf_reader *reader, int32_t index, char shown[64])
+{
+    char reason[PPMI_GLTF_PLACE];
+    source s;
+    if (!ppmi_gltf_is_usable(reader, PPMI_GLTF_IMAGES, index, reason, sizeof reason)) return false;
+    find(reader, (size_t)index, PPM_IMAGE_COLOR, &s);
+    const char *encoding =
+        s.status == PPM_STATUS_OK ? ppmi_gltf_unread_ktx2(reader->context, &s.desc) : NULL;
+    if (encoding) snprintf(shown, 64, "%s", encoding);
+    ppmi_free(reader->context, s.owned);
+    return encoding != NULL;
 }
 
 /* ---- textures -------------------------------------------------------------------------------- */

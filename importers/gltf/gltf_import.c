@@ -59,7 +59,9 @@ static ppm_status check_counts(ppmi_gltf_reader *r)
 
                  {PPMI_GLTF_AREA_LIGHTS, d->area_light_count},
                  {PPMI_GLTF_LIGHT_PROFILES, d->profile_count},
-                 {PPMI_GLTF_IMAGE_LIGHTS, d->image_light_count}};
+                 {PPMI_GLTF_IMAGE_LIGHTS, d->image_light_count},
+                 {PPMI_GLTF_CUBEMAPS, d->cubemap_count},
+                 {PPMI_GLTF_ENVIRONMENT_MAPS, d->environment_map_count}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         if (r->outline.lists[pairs[i].list].count != pairs[i].count) {
             return ppmi_fail(r->context, PPM_STATUS_INTERNAL,
@@ -126,11 +128,11 @@ static ppm_status open_reader(ppmi_gltf_reader *r)
 {
     ppm_status status = ppmi_gltf_read_file(r);
     if (status == PPM_STATUS_OK) status = parse(r);
+    if (status == PPM_STATUS_OK) status = allocate_tables(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_check_extensions(r);
     if (status == PPM_STATUS_OK) ppmi_gltf_note_core_features(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_choose_variant(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_read_xmp(r);
-    if (status == PPM_STATUS_OK) status = allocate_tables(r);
     return status;
 }
 

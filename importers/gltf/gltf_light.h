@@ -24,6 +24,11 @@ ppm_status ppmi_gltf_add_ies_light(ppmi_gltf_reader *reader, int32_t node, const
 
 /* gltf_environment.c: the image-based light of the scene that is imported, as the environment. */
 ppm_status ppmi_gltf_import_environment(ppmi_gltf_reader *reader);
+/* The same of spherical harmonics alone: those of light, which has them. */
+ppm_status ppmi_gltf_set_harmonics(ppmi_gltf_reader *reader, const ppmi_gltf_image_light *light);
+/* gltf_environment_map.c: the environment map (KHR_environment_map) of the scene that is imported.
+ */
+ppm_status ppmi_gltf_import_environment_map(ppmi_gltf_reader *reader);
 
 /* color times factor as a light's intensity. NULL when it went well, else what is wrong. */
 const char *ppmi_gltf_light_intensity(const double color[3], double factor, float out[3]);

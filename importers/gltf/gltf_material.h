@@ -40,6 +40,9 @@ void ppmi_gltf_convert_layers(ppmi_gltf_conversion *c);
 /* gltf_material_inside.c: transmission, diffuse transmission, and the volume behind them. */
 void ppmi_gltf_convert_inside(ppmi_gltf_conversion *c);
 
+/* gltf_material_scatter.c: KHR_materials_scatter on a sheet, whose transmission has been set. */
+void ppmi_gltf_convert_sheet_scatter(ppmi_gltf_conversion *c);
+
 /* gltf_specular_glossiness.c: in place of the core values and of ior and specular. */
 void ppmi_gltf_convert_specular_glossiness(ppmi_gltf_conversion *c);
 

@@ -181,6 +181,15 @@ static bool is_due(const ppmi_gltf_reader *reader, int32_t node, int32_t list, i
            ppmi_gltf_animations_change(reader, list, index);
 }
 
+/* A light profile's values are those of the node. */
+static bool are_lights_due(const ppmi_gltf_reader *reader, int32_t index)
+{
+    const ppmi_gltf_node *node = &reader->document->nodes[index];
+    return is_due(reader, index, PPMI_GLTF_LIGHTS, node->light) ||
+           ppmi_gltf_animations_change(reader, PPMI_GLTF_AREA_LIGHTS, node->area_light) ||
+           (node->profile >= 0 && ppmi_gltf_animations_change(reader, PPMI_GLTF_NODES, index));
+}
+
 /* What one node carries: added, or moved to where it is now. */
 static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index)
 {
@@ -191,8 +200,7 @@ static ppm_status emit_node(ppmi_gltf_reader *reader, int32_t index)
         is_due(reader, index, PPMI_GLTF_CAMERAS, node->camera)) {
         status = ppmi_gltf_add_camera(reader, index);
     }
-    if (status == PPM_STATUS_OK && !is_never_seen(reader, index) &&
-        is_due(reader, index, PPMI_GLTF_LIGHTS, node->light)) {
+    if (status == PPM_STATUS_OK && !is_never_seen(reader, index) && are_lights_due(reader, index)) {
         status = ppmi_gltf_add_lights(reader, index, reader->pose->middle[index]);
     }
     return status;

@@ -32,14 +32,23 @@ typedef struct entry {
     {                                                                                              \
         path, offsetof(ppmi_gltf_light, member), count                                             \
     }
+#define AREA_LIGHT(path, member, count)                                                            \
+    {                                                                                              \
+        path, offsetof(ppmi_gltf_area_light, member), count                                        \
+    }
 #define END                                                                                        \
     {                                                                                              \
         NULL, 0, 0                                                                                 \
     }
 
 static const entry node_entries[] = {
-    NODE("translation", translation, 3), NODE("rotation", rotation, 4), NODE("scale", scale, 3),
-    NODE("extensions/KHR_node_visibility/visible", visibility, 1), END};
+    NODE("translation", translation, 3),
+    NODE("rotation", rotation, 4),
+    NODE("scale", scale, 3),
+    NODE("extensions/KHR_node_visibility/visible", visibility, 1),
+    NODE("extensions/EXT_lights_ies/multiplier", profile_factor, 1),
+    NODE("extensions/EXT_lights_ies/color", profile_color, 3),
+    END};
 
 static const entry camera_entries[] = {
     CAMERA("perspective/yfov", y_fov_rad), CAMERA("perspective/aspectRatio", aspect),
@@ -48,6 +57,10 @@ static const entry camera_entries[] = {
 static const entry light_entries[] = {LIGHT("color", color, 3), LIGHT("intensity", intensity, 1),
                                       LIGHT("spot/innerConeAngle", inner_cone_rad, 1),
                                       LIGHT("spot/outerConeAngle", outer_cone_rad, 1), END};
+
+static const entry area_light_entries[] = {
+    AREA_LIGHT("color", color, 3), AREA_LIGHT("intensity", intensity, 1),
+    AREA_LIGHT("size", size, 1), AREA_LIGHT("rect/aspect", aspect, 1), END};
 
 static const entry material_entries[] = {
     MATERIAL("pbrMetallicRoughness/baseColorFactor", base_color, 4),
@@ -87,6 +100,12 @@ static const entry material_entries[] = {
              scattering.diffuse_transmission, 1),
     MATERIAL("extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor",
              scattering.diffuse_transmission_color, 3),
+    MATERIAL("extensions/KHR_materials_scatter/multiscatterColorFactor",
+             scattering.multiscatter_color, 3),
+    MATERIAL("extensions/KHR_materials_scatter/scatterAnisotropy", scattering.scatter_anisotropy,
+             1),
+    MATERIAL("extensions/KHR_materials_scatter/scatterStrengthFactor", scattering.scatter_strength,
+             1),
     MATERIAL("extensions/KHR_materials_volume_scatter/multiscatterColor",
              scattering.multiscatter_color, 3),
     MATERIAL("extensions/KHR_materials_volume_scatter/multiscatterColorFactor",
@@ -129,6 +148,10 @@ static const entry texture_entries[] = {
              scattering.diffuse_transmission_texture, 0),
     MATERIAL("extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
              scattering.diffuse_transmission_color_texture, 0),
+    MATERIAL("extensions/KHR_materials_scatter/multiscatterColorTexture",
+             scattering.multiscatter_color_texture, 0),
+    MATERIAL("extensions/KHR_materials_scatter/scatterStrengthTexture",
+             scattering.scatter_strength_texture, 0),
     MATERIAL("extensions/KHR_materials_volume_scatter/multiscatterColorTexture",
              scattering.multiscatter_color_texture, 0),
     MATERIAL("extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture",
@@ -272,6 +295,8 @@ static bool find_in(ppmi_gltf_reader *reader, const char *path, ppmi_gltf_proper
         return element_property(&d.cameras[index], camera_entries, path, out);
     case PPMI_GLTF_LIGHTS:
         return element_property(&d.lights[index], light_entries, path, out);
+    case PPMI_GLTF_AREA_LIGHTS:
+        return element_property(&d.area_lights[index], area_light_entries, path, out);
     default: /* meshes */
         return strcmp(path, "weights") == 0;
     }
@@ -287,6 +312,7 @@ ppmi_gltf_pointer_result ppmi_gltf_resolve_pointer(ppmi_gltf_reader *reader, con
                  {"/materials/", PPMI_GLTF_MATERIALS},
                  {"/cameras/", PPMI_GLTF_CAMERAS},
                  {"/extensions/KHR_lights_punctual/lights/", PPMI_GLTF_LIGHTS},
+                 {"/extensions/EXT_lights_area/lights/", PPMI_GLTF_AREA_LIGHTS},
                  {"/meshes/", PPMI_GLTF_MESHES}};
     char text[MAX_POINTER], reason[2 * PPMI_GLTF_PLACE];
     if (pointer[0] != '/') return PPMI_GLTF_POINTER_BROKEN;

@@ -8,8 +8,8 @@ typedef struct ppmi_gltf_property {
     double *values;
     uint32_t count;
     bool is_rotation, is_flag, is_list; /* a list is written scalar by scalar */
-    int32_t list, index;                /* whose it is: PPMI_GLTF_NODES, _MATERIALS, _CAMERAS or
-                                           _LIGHTS, and which */
+    int32_t list, index;                /* whose it is: PPMI_GLTF_NODES, _MATERIALS, _CAMERAS,
+                                           _LIGHTS or _AREA_LIGHTS, and which */
     ppmi_gltf_texture_info *texture;    /* whose transform it is, or NULL */
 } ppmi_gltf_property;
 

@@ -4,25 +4,27 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const list_names[PPMI_GLTF_LIST_COUNT] = {[PPMI_GLTF_SCENES] = "scenes",
-                                                             [PPMI_GLTF_NODES] = "nodes",
-                                                             [PPMI_GLTF_MESHES] = "meshes",
-                                                             [PPMI_GLTF_ACCESSORS] = "accessors",
-                                                             [PPMI_GLTF_BUFFER_VIEWS] =
-                                                                 "bufferViews",
-                                                             [PPMI_GLTF_BUFFERS] = "buffers",
-                                                             [PPMI_GLTF_MATERIALS] = "materials",
-                                                             [PPMI_GLTF_TEXTURES] = "textures",
-                                                             [PPMI_GLTF_IMAGES] = "images",
-                                                             [PPMI_GLTF_SAMPLERS] = "samplers",
-                                                             [PPMI_GLTF_CAMERAS] = "cameras",
-                                                             [PPMI_GLTF_LIGHTS] = "lights",
-                                                             [PPMI_GLTF_AREA_LIGHTS] = "lights",
-                                                             [PPMI_GLTF_LIGHT_PROFILES] = "lights",
-                                                             [PPMI_GLTF_IMAGE_LIGHTS] = "lights",
-                                                             [PPMI_GLTF_ANIMATIONS] = "animations",
-                                                             [PPMI_GLTF_SKINS] = "skins",
-                                                             [PPMI_GLTF_VARIANTS] = "variants"};
+static const char *const list_names[PPMI_GLTF_LIST_COUNT] = {
+    [PPMI_GLTF_SCENES] = "scenes",
+    [PPMI_GLTF_NODES] = "nodes",
+    [PPMI_GLTF_MESHES] = "meshes",
+    [PPMI_GLTF_ACCESSORS] = "accessors",
+    [PPMI_GLTF_BUFFER_VIEWS] = "bufferViews",
+    [PPMI_GLTF_BUFFERS] = "buffers",
+    [PPMI_GLTF_MATERIALS] = "materials",
+    [PPMI_GLTF_TEXTURES] = "textures",
+    [PPMI_GLTF_IMAGES] = "images",
+    [PPMI_GLTF_SAMPLERS] = "samplers",
+    [PPMI_GLTF_CAMERAS] = "cameras",
+    [PPMI_GLTF_LIGHTS] = "lights",
+    [PPMI_GLTF_AREA_LIGHTS] = "lights",
+    [PPMI_GLTF_LIGHT_PROFILES] = "lights",
+    [PPMI_GLTF_IMAGE_LIGHTS] = "lights",
+    [PPMI_GLTF_CUBEMAPS] = "cubemaps",
+    [PPMI_GLTF_ENVIRONMENT_MAPS] = "environment_maps",
+    [PPMI_GLTF_ANIMATIONS] = "animations",
+    [PPMI_GLTF_SKINS] = "skins",
+    [PPMI_GLTF_VARIANTS] = "variants"};
 
 bool ppmi_gltf_is_usable(const ppmi_gltf_reader *reader, int list, int32_t index, char *reason,
                          size_t reason_size)

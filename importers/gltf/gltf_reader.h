@@ -212,6 +212,14 @@ ppm_status ppmi_gltf_add_images(ppmi_gltf_reader *reader, const size_t *uses, si
 ppm_status ppmi_gltf_use_image(ppmi_gltf_reader *reader, int32_t index, int32_t role,
                                const char *place, ppm_image_id *out_id);
 
+/* gltf_image.c: the six faces of a cube, a layer of a KTX file, as colours; all 0, with a warning,
+ * when they cannot be had. Returns OK, OUT_OF_MEMORY, WRONG_STATE. */
+ppm_status ppmi_gltf_use_cube(ppmi_gltf_reader *reader, int32_t index, uint32_t layer,
+                              const char *place, ppm_image_id faces[6]);
+
+/* gltf_image.c: whether an image is a KTX file of an encoding that is not read, and its name. */
+bool ppmi_gltf_image_is_unread(ppmi_gltf_reader *reader, int32_t index, char shown[64]);
+
 /* gltf_image.c: a texture in a role (PPM_IMAGE_), with its image added at its first use. What
  * cannot be had is left out with a warning: out_texture->image is then 0. */
 ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_texture_info *info,

@@ -143,7 +143,10 @@ static const gltf_field node[] = {
     OBJECT("extensions", node_extensions),
     FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = node_extras),
     END};
-static const gltf_field scene_extensions[] = {OBJECT("EXT_lights_image_based", node_light), END};
+static const gltf_field scene_environment[] = {INDEX("environment_map", GLTF_REQUIRED), END};
+static const gltf_field scene_extensions[] = {OBJECT("EXT_lights_image_based", node_light),
+                                              OBJECT("KHR_environment_map", scene_environment),
+                                              END};
 static const gltf_field scene[] = {
     STRING("name"), FIELD("nodes", GLTF_INTEGERS, .flags = GLTF_VITAL, .max = INDEX_MAX),
     OBJECT("extensions", scene_extensions), END};
@@ -227,6 +230,17 @@ static const gltf_field image_light[] = {STRING("name"), NUMBER("intensity"),
                                          NUMBERS("rotation", 4, 0), NUMBER("specularImageSize"),
                                          END};
 
+/* KHR_environment_map, by the text of its draft; its schema files have other names */
+static const gltf_field cubemap[] = {INDEX("source", GLTF_VITAL | GLTF_REQUIRED), INDEX("layer", 0),
+                                     NUMBER("intensity"), END};
+static const gltf_field environment_map[] = {STRING("name"),
+                                             INDEX("cubemap", 0),
+                                             NUMBER("irradianceFactor"),
+                                             NUMBERS("boundingBoxMin", 3, 0),
+                                             NUMBERS("boundingBoxMax", 3, 0),
+                                             NUMBER("ior"),
+                                             END};
+
 /* ---- materials ------------------------------------------------------------------------------- */
 
 static const gltf_field texture_transform[] = {NUMBERS("offset", 2, 0), NUMBER("rotation"),
@@ -290,6 +304,12 @@ static const gltf_field specular_glossiness[] = {NUMBERS("diffuseFactor", 4, 0),
 static const gltf_field volume_scatter[] = {
     NUMBERS("multiscatterColor", 3, 0), NUMBERS("multiscatterColorFactor", 3, 0),
     OBJECT("multiscatterColorTexture", texture_info), NUMBER("scatterAnisotropy"), END};
+static const gltf_field scatter[] = {NUMBER("scatterStrengthFactor"),
+                                     OBJECT("scatterStrengthTexture", texture_info),
+                                     NUMBERS("multiscatterColorFactor", 3, 0),
+                                     OBJECT("multiscatterColorTexture", texture_info),
+                                     NUMBER("scatterAnisotropy"),
+                                     END};
 static const gltf_field material_extensions[] = {
     OBJECT("EXT_materials_retroreflection", retroreflection),
     OBJECT("KHR_materials_anisotropy", anisotropy),
@@ -301,6 +321,7 @@ static const gltf_field material_extensions[] = {
     OBJECT("KHR_materials_iridescence", iridescence),
     OBJECT("KHR_materials_pbrSpecularGlossiness", specular_glossiness),
     OBJECT("KHR_materials_retroreflection", retroreflection),
+    OBJECT("KHR_materials_scatter", scatter),
     OBJECT("KHR_materials_sheen", sheen),
     OBJECT("KHR_materials_specular", specular),
     OBJECT("KHR_materials_transmission", transmission),
@@ -349,14 +370,22 @@ static const gltf_field light_profiles[] = {
     LIST("lights", PPMI_GLTF_LIGHT_PROFILES, GLTF_KEEPS_EMPTY, light_profile, "{\"_\":0}"), END};
 static const gltf_field image_lights[] = {
     LIST("lights", PPMI_GLTF_IMAGE_LIGHTS, GLTF_KEEPS_EMPTY, image_light, "{\"_\":0}"), END};
+static const gltf_field environment_maps[] = {
+    LIST("cubemaps", PPMI_GLTF_CUBEMAPS, GLTF_KEEPS_EMPTY, cubemap, "{\"_\":0}"),
+    LIST("environment_maps", PPMI_GLTF_ENVIRONMENT_MAPS, GLTF_KEEPS_EMPTY, environment_map,
+         "{\"_\":0}"),
+    END};
 static const gltf_field variant[] = {
     FIELD("name", GLTF_STRING, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field variants[] = {
     LIST("variants", PPMI_GLTF_VARIANTS, 0, variant, "{\"name\":\"\"}"), END};
-static const gltf_field root_extensions[] = {
-    OBJECT("KHR_lights_punctual", punctual),    OBJECT("EXT_lights_area", area_lights),
-    OBJECT("EXT_lights_ies", light_profiles),   OBJECT("EXT_lights_image_based", image_lights),
-    OBJECT("KHR_materials_variants", variants), END};
+static const gltf_field root_extensions[] = {OBJECT("KHR_lights_punctual", punctual),
+                                             OBJECT("EXT_lights_area", area_lights),
+                                             OBJECT("EXT_lights_ies", light_profiles),
+                                             OBJECT("EXT_lights_image_based", image_lights),
+                                             OBJECT("KHR_environment_map", environment_maps),
+                                             OBJECT("KHR_materials_variants", variants),
+                                             END};
 static const gltf_field asset_xmp[] = {INDEX("packet", 0), END};
 static const gltf_field asset_extensions[] = {OBJECT("KHR_xmp_json_ld", asset_xmp), END};
 static const gltf_field asset[] = {

@@ -41,6 +41,8 @@ struct Document : ppmi_gltf_document {
     std::vector<ppmi_gltf_area_light> area_light_items;
     std::vector<ppmi_gltf_light_profile> profile_items;
     std::vector<ppmi_gltf_image_light> image_light_items;
+    std::vector<ppmi_gltf_cubemap> cubemap_items;
+    std::vector<ppmi_gltf_environment_map> environment_map_items;
     // deques: what is in them stays where it is
     std::deque<std::vector<ppmi_gltf_attribute>> attribute_lists;
     std::deque<std::vector<ppmi_gltf_primitive>> primitive_lists;
@@ -350,12 +352,12 @@ void copy_animations(Document *document)
     document->animation_count = count;
 }
 
-// The elements of a root extension's list "lights".
+// The elements of a root extension's list.
 template <typename To, typename Copy>
-void copy_extension_lights(const tinygltf::Model &model, const char *name, std::vector<To> *items,
-                           const To **out_items, size_t *out_count, Copy copy)
+void copy_extension_list(const tinygltf::Model &model, const char *name, const char *key,
+                         std::vector<To> *items, const To **out_items, size_t *out_count, Copy copy)
 {
-    const Value &list = member(extension(model.extensions, name), "lights");
+    const Value &list = member(extension(model.extensions, name), key);
     const size_t count = list.IsArray() ? list.ArrayLen() : 0;
     for (size_t i = 0; i < count; ++i) {
         items->push_back(copy(list.Get(i)));
@@ -406,12 +408,13 @@ void copy_model(Document *d)
     d->xmp_packet = index_or(extension(model.asset.extensions, "KHR_xmp_json_ld"), "packet", -1);
     copy_variants(d);
     d->default_scene = model.defaultScene;
-    copy_all(model.scenes, &d->scene_items, &d->scenes, &d->scene_count,
-             [](const tinygltf::Scene &s) {
-                 return ppmi_gltf_scene{
-                     s.name.c_str(), static_cast<uint32_t>(s.nodes.size()), s.nodes.data(),
-                     index_or(extension(s.extensions, "EXT_lights_image_based"), "light", -1)};
-             });
+    copy_all(
+        model.scenes, &d->scene_items, &d->scenes, &d->scene_count, [](const tinygltf::Scene &s) {
+            return ppmi_gltf_scene{
+                s.name.c_str(), static_cast<uint32_t>(s.nodes.size()), s.nodes.data(),
+                index_or(extension(s.extensions, "EXT_lights_image_based"), "light", -1),
+                index_or(extension(s.extensions, "KHR_environment_map"), "environment_map", -1)};
+        });
     copy_all(model.nodes, &d->node_items, &d->nodes, &d->node_count,
              [d](const tinygltf::Node &n) { return copy_node(d, n); });
     copy_all(model.meshes, &d->mesh_items, &d->meshes, &d->mesh_count,
@@ -429,12 +432,16 @@ void copy_model(Document *d)
     copy_all(model.lights, &d->light_items, &d->lights, &d->light_count, copy_light);
     copy_all(model.skins, &d->skin_items, &d->skins, &d->skin_count, copy_skin);
     copy_animations(d);
-    copy_extension_lights(model, "EXT_lights_area", &d->area_light_items, &d->area_lights,
-                          &d->area_light_count, copy_area_light);
-    copy_extension_lights(model, "EXT_lights_ies", &d->profile_items, &d->profiles,
-                          &d->profile_count, copy_profile);
-    copy_extension_lights(model, "EXT_lights_image_based", &d->image_light_items, &d->image_lights,
-                          &d->image_light_count, copy_image_light);
+    copy_extension_list(model, "EXT_lights_area", "lights", &d->area_light_items, &d->area_lights,
+                        &d->area_light_count, copy_area_light);
+    copy_extension_list(model, "EXT_lights_ies", "lights", &d->profile_items, &d->profiles,
+                        &d->profile_count, copy_profile);
+    copy_extension_list(model, "EXT_lights_image_based", "lights", &d->image_light_items,
+                        &d->image_lights, &d->image_light_count, copy_image_light);
+    copy_extension_list(model, "KHR_environment_map", "cubemaps", &d->cubemap_items, &d->cubemaps,
+                        &d->cubemap_count, copy_cubemap);
+    copy_extension_list(model, "KHR_environment_map", "environment_maps", &d->environment_map_items,
+                        &d->environment_maps, &d->environment_map_count, copy_environment_map);
 }
 
 ppm_status load(ppm_context *context, const char *file, const char *text, size_t length,
@@ -480,7 +487,7 @@ ppmi_gltf_editable ppmi_gltf_document_edit(const ppmi_gltf_document *document)
     // every document is made above, and is not const there
     auto *d = const_cast<Document *>(static_cast<const Document *>(document));
     return {d->node_items.data(), d->material_items.data(), d->camera_items.data(),
-            d->light_items.data()};
+            d->light_items.data(), d->area_light_items.data()};
 }
 
 void ppmi_gltf_document_destroy(const ppmi_gltf_document *document)

@@ -176,7 +176,8 @@ typedef struct ppmi_gltf_scene {
     const char *name;
     uint32_t node_count;
     const int32_t *nodes;
-    int32_t image_light; /* EXT_lights_image_based */
+    int32_t image_light;     /* EXT_lights_image_based */
+    int32_t environment_map; /* KHR_environment_map */
 } ppmi_gltf_scene;
 
 typedef struct ppmi_gltf_camera {
@@ -224,6 +225,19 @@ typedef struct ppmi_gltf_image_light {
     double irradiance[9][3]; /* spherical harmonics */
 } ppmi_gltf_image_light;
 
+/* KHR_environment_map */
+typedef struct ppmi_gltf_cubemap {
+    int32_t source, layer; /* an image, which is a KTX file */
+    double intensity;
+} ppmi_gltf_cubemap;
+
+typedef struct ppmi_gltf_environment_map {
+    int32_t cubemap;
+    bool has_box, has_other_ior;
+    bool has_irradiance;
+    double irradiance[9][3], irradiance_factor;
+} ppmi_gltf_environment_map;
+
 typedef struct ppmi_gltf_texture_info {
     int32_t texture;
     int32_t uv_set;
@@ -252,6 +266,9 @@ typedef struct ppmi_gltf_scattering {
     ppmi_gltf_texture_info diffuse_transmission_texture, diffuse_transmission_color_texture;
     double multiscatter_color[3], scatter_anisotropy;
     ppmi_gltf_texture_info multiscatter_color_texture;
+    bool is_scatter;         /* KHR_materials_scatter; else KHR_materials_volume_scatter */
+    double scatter_strength; /* 1 for the latter */
+    ppmi_gltf_texture_info scatter_strength_texture;
 } ppmi_gltf_scattering;
 
 typedef struct ppmi_gltf_specular_glossiness {
@@ -305,7 +322,7 @@ typedef struct ppmi_gltf_document {
     const char *const *variants; /* their names */
     size_t scene_count, node_count, mesh_count, accessor_count, buffer_view_count, material_count,
         texture_count, sampler_count, camera_count, light_count, skin_count, animation_count,
-        area_light_count, profile_count, image_light_count;
+        area_light_count, profile_count, image_light_count, cubemap_count, environment_map_count;
     const ppmi_gltf_scene *scenes;
     const ppmi_gltf_node *nodes;
     const ppmi_gltf_mesh *meshes;
@@ -321,6 +338,8 @@ typedef struct ppmi_gltf_document {
     const ppmi_gltf_area_light *area_lights;
     const ppmi_gltf_light_profile *profiles;
     const ppmi_gltf_image_light *image_lights;
+    const ppmi_gltf_cubemap *cubemaps;
+    const ppmi_gltf_environment_map *environment_maps;
 } ppmi_gltf_document;
 
 /* file is for messages. Returns OK, INPUT_INVALID with tinygltf's text, OUT_OF_MEMORY. */
@@ -332,6 +351,7 @@ typedef struct ppmi_gltf_editable {
     ppmi_gltf_material *materials;
     ppmi_gltf_camera *cameras;
     ppmi_gltf_light *lights;
+    ppmi_gltf_area_light *area_lights;
 } ppmi_gltf_editable;
 ppmi_gltf_editable ppmi_gltf_document_edit(const ppmi_gltf_document *document);
 

@@ -29,6 +29,22 @@ ppmi_gltf_area_extras copy_area_extras(const Value &area)
     numbers_or(area, "color", out.color, 3, 1.0);
     return out;
 }
+
+// Nine rows of three numbers; false for anything else.
+bool copy_irradiance(const Value &from, double out[9][3])
+{
+    const Value &rows = member(from, "irradianceCoefficients");
+    if (!rows.IsArray() || rows.ArrayLen() != 9) return false;
+    for (int i = 0; i < 9; ++i) {
+        const Value &row = rows.Get(i);
+        if (!row.IsArray() || row.ArrayLen() != 3) return false;
+        for (int k = 0; k < 3; ++k) {
+            if (!row.Get(k).IsNumber()) return false;
+            out[i][k] = row.Get(k).GetNumberAsDouble();
+        }
+    }
+    return true;
+}
 } // namespace
 
 void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
@@ -106,16 +122,25 @@ ppmi_gltf_image_light copy_image_light(const Value &from)
         const bool is_index = out.has_faces && faces.Get(i).IsInt();
         out.faces[i] = is_index ? faces.Get(i).GetNumberAsInt() : -1;
     }
-    const Value &rows = member(from, "irradianceCoefficients");
-    out.has_irradiance = rows.IsArray() && rows.ArrayLen() == 9;
-    for (int i = 0; i < 9 && out.has_irradiance; ++i) {
-        const Value &row = rows.Get(i);
-        out.has_irradiance = row.IsArray() && row.ArrayLen() == 3;
-        for (int k = 0; k < 3 && out.has_irradiance; ++k) {
-            out.has_irradiance = row.Get(k).IsNumber();
-            out.irradiance[i][k] = out.has_irradiance ? row.Get(k).GetNumberAsDouble() : 0.0;
-        }
-    }
+    out.has_irradiance = copy_irradiance(from, out.irradiance);
+    return out;
+}
+
+ppmi_gltf_cubemap copy_cubemap(const Value &from)
+{
+    return {index_or(from, "source", -1), index_or(from, "layer", 0),
+            number_or(from, "intensity", 1.0)};
+}
+
+ppmi_gltf_environment_map copy_environment_map(const Value &from)
+{
+    ppmi_gltf_environment_map out = {};
+    out.cubemap = index_or(from, "cubemap", -1);
+    out.has_box =
+        member(from, "boundingBoxMin").IsArray() || member(from, "boundingBoxMax").IsArray();
+    out.has_other_ior = number_or(from, "ior", 1.0) != 1.0;
+    out.has_irradiance = copy_irradiance(from, out.irradiance);
+    out.irradiance_factor = number_or(from, "irradianceFactor", 1.0);
     return out;
 }
 } // namespace ppmi_gltf

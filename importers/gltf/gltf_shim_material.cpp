@@ -72,7 +72,8 @@ void copy_highlights(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
     out->retroreflection_texture = extension_texture(retro, "retroreflectionTexture");
 }
 
-// The colour of KHR_materials_volume_scatter has had two names so far.
+// The colour of KHR_materials_volume_scatter has had two names so far. KHR_materials_scatter, which
+// is to replace it, has the latter, another default, and a strength.
 void copy_scattering(const tinygltf::ExtensionMap &map, ppmi_gltf_scattering *out)
 {
     const Value &diffuse = extension(map, "KHR_materials_diffuse_transmission");
@@ -82,10 +83,14 @@ void copy_scattering(const tinygltf::ExtensionMap &map, ppmi_gltf_scattering *ou
     out->diffuse_transmission_color_texture =
         extension_texture(diffuse, "diffuseTransmissionColorTexture");
 
-    const Value &scatter = extension(map, "KHR_materials_volume_scatter");
+    const Value &newer = extension(map, "KHR_materials_scatter");
+    out->is_scatter = newer.IsObject();
+    const Value &scatter = out->is_scatter ? newer : extension(map, "KHR_materials_volume_scatter");
+    out->scatter_strength = out->is_scatter ? number_or(newer, "scatterStrengthFactor", 0.0) : 1.0;
+    out->scatter_strength_texture = extension_texture(newer, "scatterStrengthTexture");
     const bool is_factor = member(scatter, "multiscatterColorFactor").IsArray();
     numbers_or(scatter, is_factor ? "multiscatterColorFactor" : "multiscatterColor",
-               out->multiscatter_color, 3, 0.0);
+               out->multiscatter_color, 3, out->is_scatter ? 1.0 : 0.0);
     out->multiscatter_color_texture = extension_texture(scatter, "multiscatterColorTexture");
     out->scatter_anisotropy = number_or(scatter, "scatterAnisotropy", 0.0);
 }

@@ -93,6 +93,8 @@ ppmi_gltf_light copy_light(const tinygltf::Light &from);
 ppmi_gltf_area_light copy_area_light(const Value &from);
 ppmi_gltf_light_profile copy_profile(const Value &from);
 ppmi_gltf_image_light copy_image_light(const Value &from);
+ppmi_gltf_cubemap copy_cubemap(const Value &from);
+ppmi_gltf_environment_map copy_environment_map(const Value &from);
 } // namespace ppmi_gltf
 
 #endif

@@ -445,6 +445,8 @@ typedef struct ppm_cube_environment_desc {
     uint32_t is_rgbd;      /* non-zero: colours of 8-bit images with alpha are divided by it */
     float radiance[3];     /* nit, linear Rec.709; multiplies the images */
     float rotation[4];     /* turns the cube: a quaternion x y z w of any length; all 0: none */
+    uint32_t is_mirrored;  /* non-zero: each face is mirrored left to right, as Vulkan and OpenGL
+                              sample cubes by directions of a right-handed world */
 } ppm_cube_environment_desc;
 
 /* Sets the environment to a latitude-longitude image made of the cube, with the backdrop that it

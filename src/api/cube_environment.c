@@ -65,7 +65,8 @@ static ppmi_vec3 cube_radiance(const ppm_scene *scene, const ppm_cube_environmen
     }
     const cube_face *f = &cube_faces[face];
     const float ahead = vec3_dot(d, f->ahead);
-    return face_radiance(scene, desc, face, 0.5f + 0.5f * vec3_dot(d, f->right) / ahead,
+    const float right = vec3_dot(d, f->right) / ahead;
+    return face_radiance(scene, desc, face, 0.5f + 0.5f * (desc->is_mirrored ? -right : right),
                          0.5f - 0.5f * vec3_dot(d, f->up) / ahead);
 }
 

@@ -182,9 +182,9 @@ static void required_extensions_that_are_unknown_are_named(void **state)
     gltf_reset(f);
     assert_gltf_status(f,
                        gltf_import(f, "{'asset':{'version':'2.0'},'extensionsRequired':["
-                                      "'KHR_texture_basisu']}"),
+                                      "'NV_materials_mdl']}"),
                        PPM_STATUS_INPUT_UNSUPPORTED);
-    assert_gltf_logged(f, 'E', "as PNG, JPEG or WebP");
+    assert_gltf_logged(f, 'E', "the glTF material beside it is shown");
     gltf_reset(f);
     assert_gltf_status(
         f, gltf_import(f, "{'asset':{'version':'2.0'},'extensionsRequired':'KHR_materials_ior'}"),

@@ -5,6 +5,7 @@
 
 #include "imageio/imageio.h"
 #include "material_fixture.h"
+#include "support/near.h"
 
 /* ---- values ---------------------------------------------------------------------------------- */
 
@@ -145,6 +146,102 @@ static void a_sheet_that_light_seeps_through_is_thin(void **state)
         PPM_TRANSMISSION_THIN);
     f->options.transmission = PPM_TRANSMISSION_POLICY_SOLID;
     assert_int_equal(import_material(f, "x", material)->transmission_kind, PPM_TRANSMISSION_SOLID);
+}
+
+/* ---- KHR_materials_scatter ------------------------------------------------------------------- */
+
+#define SHEET(transmission, strength, more)                                                        \
+    "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[0.2,0.4,0.6,1]},'extensions':{" \
+    "'KHR_materials_transmission':{'transmissionFactor':" transmission                             \
+    "},'KHR_materials_scatter':{'scatterStrengthFactor':" strength more "}}"
+
+static void scatter_without_strength_changes_nothing(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x",
+                        "'extensions':{'KHR_materials_transmission':{'transmissionFactor':0.5},"
+                        "'KHR_materials_scatter':{'multiscatterColorFactor':[0.4,0.5,0.6]}}");
+    assert_values(&m->transmission, 1, (const float[]){0.5f});
+    assert_values(&m->diffuse_transmission, 1, (const float[]){0});
+    m = import_material(f, "x",
+                        "'extensions':{'KHR_materials_transmission':{'transmissionFactor':0.5},"
+                        "'KHR_materials_volume':{'thicknessFactor':1},"
+                        "'KHR_materials_scatter':{'multiscatterColorFactor':[0.4,0.5,0.6]}}");
+    assert_values(m->multiscatter_color, 3, (const float[]){0, 0, 0});
+}
+
+/* s^2 of Kulla and Conty 2017 */
+static double single_albedo_gap(double c)
+{
+    const double s = 4.09712 + 4.20863 * c - sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c);
+    return s * s;
+}
+
+static void scatter_inside_solids_is_that_of_volumes(void **state)
+{
+    const ppm_material_desc *m = import_material(
+        *state, "x",
+        "'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
+        "'KHR_materials_volume':{'thicknessFactor':1,'attenuationDistance':2},"
+        "'KHR_materials_scatter':{'scatterStrengthFactor':0.5,'scatterAnisotropy':0.25,"
+        "'multiscatterColorFactor':[0.4,0.6,0.8]}}");
+    assert_int_equal(m->transmission_kind, PPM_TRANSMISSION_SOLID);
+    const double colors[3] = {0.2, 0.3, 0.4}, g = 0.25;
+    for (int i = 0; i < 3; ++i) {
+        const double got = single_albedo_gap(m->multiscatter_color[i]);
+        const double gap = single_albedo_gap(colors[i]);
+        assert_near(1.0 - got, (1.0 - gap) / (1.0 - g * gap), 1e-5);
+    }
+    assert_values(&m->scatter_anisotropy_g, 1, (const float[]){0.25f});
+    assert_values(&m->attenuation_distance_m, 1, (const float[]){2});
+    assert_values(&m->transmission, 1, (const float[]){1});
+}
+
+/* The lobes of the scene's material against the draft's, each by its weight and colour. */
+static void scatter_on_sheets_has_the_lobes_of_the_draft(void **state)
+{
+    static const struct {
+        const char *material;
+        float transmission, strength, g;
+        bool is_exact;
+    } cases[] = {
+        {SHEET("1", "1", ""), 1, 1, 0, true},
+        {SHEET("0.5", "1", ",'scatterAnisotropy':0.5"), 0.5f, 1, 0.5f, true},
+        {SHEET("0.75", "0.5", ",'scatterAnisotropy':1"), 0.75f, 0.5f, 1, true},
+        {SHEET("1", "1", ",'scatterAnisotropy':-1"), 1, 1, -1, true},
+        {SHEET("0.5", "0.5", ",'scatterAnisotropy':-0.5"), 0.5f, 0.5f, -0.5f, false},
+    };
+    gltf_fixture *f = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        const ppm_material_desc *m = import_material(f, "x", cases[i].material);
+        const float t = cases[i].transmission, s = cases[i].strength, g = cases[i].g;
+        const float base = 0.2f, scattered = 1.0f; /* red */
+        assert_values(&m->transmission, 1, (const float[]){t * (1 - s)});
+        const float diffuse = 1 - m->transmission;
+        const float through = diffuse * m->diffuse_transmission * m->diffuse_transmission_color[0];
+        assert_values(&through, 1, (const float[]){t * s * (1 + g) / 2 * scattered});
+        const float back = diffuse * (1 - m->diffuse_transmission) * m->base_color[0];
+        assert_values(&back, 1, (const float[]){(1 - t) * base + t * s * (1 - g) / 2 * scattered});
+        if (m->transmission > 0 && cases[i].is_exact) {
+            assert_values(m->base_color, 1, &base); /* which tints the glass */
+        }
+        assert_int_equal(gltf_logged(f, 'I', "approximated: KHR_materials_scatter"),
+                         !cases[i].is_exact);
+    }
+}
+
+static void scatter_textures_reach_their_slots(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m = import_material(
+        f, "x",
+        SHEET("1", "1",
+              ",'scatterAnisotropy':0.5,'multiscatterColorTexture':{'index':0,'texCoord':1}"));
+    assert_true(m->diffuse_transmission_color_texture.image != 0);
+    assert_int_equal(m->base_color_texture.image, m->diffuse_transmission_color_texture.image);
+    assert_int_equal(m->base_color_texture.uv_set, 1);
+    assert_true(f->scene->images[m->base_color_texture.image - 1].is_srgb);
 }
 
 /* ---- bad values ------------------------------------------------------------------------------ */
@@ -329,6 +426,10 @@ int main(void)
         TEST(retroreflection_is_read_under_both_its_names),
         TEST(scattering_is_read_under_both_names_of_its_colour),
         TEST(a_texture_of_the_medium_gives_its_mean_colour),
+        TEST(scatter_without_strength_changes_nothing),
+        TEST(scatter_inside_solids_is_that_of_volumes),
+        TEST(scatter_on_sheets_has_the_lobes_of_the_draft),
+        TEST(scatter_textures_reach_their_slots),
         TEST(a_sheet_that_light_seeps_through_is_thin),
         TEST(values_out_of_range_are_brought_into_it_with_a_warning),
         TEST(the_anisotropy_of_scattering_stays_short_of_a_pulse),

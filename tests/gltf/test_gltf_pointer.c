@@ -12,7 +12,12 @@
 static const char one_of_everything[] =
     "'extensionsUsed':['KHR_animation_pointer','KHR_lights_punctual','KHR_node_visibility'],"
     "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'spot','color':[1,1,1],"
-    "'intensity':2,'spot':{'innerConeAngle':0.1,'outerConeAngle':0.5}}]}},"
+    "'intensity':2,'spot':{'innerConeAngle':0.1,'outerConeAngle':0.5}}]},"
+    "'EXT_lights_area':{'lights':[{'type':'rect','intensity':2,'size':1}]},"
+    "'EXT_lights_ies':{'lights':[{'uri':'data:;base64,"
+    "SUVTTkE6TE0tNjMtMjAwMgpUSUxUPU5PTkUKMSAxMDAwIDEgMiAxIDEgMiAwIDAgMAoxIDEgMTAwCjAg"
+    "OTAKMAoxMDAgMTAwCg=="
+    "'}]}},"
     "'cameras':[{'type':'perspective','perspective':{'yfov':0.5,'znear':0.1}},"
     "{'type':'orthographic','orthographic':{'xmag':2,'ymag':3,'znear':0.1,'zfar':9}}],"
     "'images':[{'uri':'data:image/png;base64,"
@@ -26,9 +31,11 @@ static const char one_of_everything[] =
     "'KHR_materials_anisotropy':{'anisotropyStrength':0.5},"
     "'KHR_materials_iridescence':{'iridescenceFactor':1},"
     "'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.1}}}],"
-    "'nodes':[{'children':[1,2,3,4],'mesh':0},{'camera':0},"
+    "'nodes':[{'children':[1,2,3,4,5,6],'mesh':0},{'camera':0},"
     "{'extensions':{'KHR_lights_punctual':{'light':0}}},"
-    "{'mesh':0,'extensions':{'KHR_node_visibility':{'visible':false}}},{'camera':1}],";
+    "{'mesh':0,'extensions':{'KHR_node_visibility':{'visible':false}}},{'camera':1},"
+    "{'extensions':{'EXT_lights_area':{'light':0}}},"
+    "{'extensions':{'EXT_lights_ies':{'light':0}}}],";
 
 /* Animates one pointer from its first to its second value within a second. */
 static ppm_status open_pointer(gltf_fixture *f, const char *pointer, const char *type,
@@ -115,6 +122,22 @@ static float light_intensity(const gltf_fixture *f)
 static float light_cone(const gltf_fixture *f)
 {
     return acosf(f->scene->punctuals[0].cos_outer);
+}
+static float area_intensity(const gltf_fixture *f)
+{
+    return f->scene->punctuals[1].intensity.y;
+}
+static float area_width(const gltf_fixture *f)
+{
+    return 2.0f * f->scene->punctuals[1].half_width_m;
+}
+static float area_height(const gltf_fixture *f)
+{
+    return 2.0f * f->scene->punctuals[1].half_height_m;
+}
+static float profile_intensity(const gltf_fixture *f)
+{
+    return f->scene->punctuals[2].intensity.y;
 }
 static float camera_angle(const gltf_fixture *f)
 {
@@ -247,6 +270,40 @@ static const struct {
      light_cone,
      0.2f,
      0.4f},
+    {"/extensions/EXT_lights_area/lights/0/intensity",
+     "SCALAR",
+     1,
+     {0},
+     {10},
+     area_intensity,
+     0,
+     5},
+    {"/extensions/EXT_lights_area/lights/0/color",
+     "VEC3",
+     3,
+     {0, 0, 0},
+     {1, 1, 1},
+     area_intensity,
+     0,
+     1},
+    {"/extensions/EXT_lights_area/lights/0/size", "SCALAR", 1, {1}, {3}, area_height, 1, 2},
+    {"/extensions/EXT_lights_area/lights/0/rect/aspect", "SCALAR", 1, {1}, {3}, area_width, 1, 2},
+    {"/nodes/6/extensions/EXT_lights_ies/multiplier",
+     "SCALAR",
+     1,
+     {0},
+     {4},
+     profile_intensity,
+     0,
+     2},
+    {"/nodes/6/extensions/EXT_lights_ies/color",
+     "VEC3",
+     3,
+     {1, 0, 1},
+     {1, 0.5f, 1},
+     profile_intensity,
+     0,
+     0.25f},
     {"/cameras/0/perspective/yfov", "SCALAR", 1, {0.5f}, {1.5f}, camera_angle, 0.5f, 1},
     {"/cameras/1/orthographic/ymag", "SCALAR", 1, {1}, {3}, camera_height, 1, 2},
     {"/nodes/0/translation", "VEC3", 3, {0, 0, 0}, {0, 8, 0}, node_y, 0, 4},

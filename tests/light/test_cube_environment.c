@@ -100,6 +100,25 @@ static void bad_cubes_are_refused(void **state)
     assert_false(test.scene->environment.is_set);
 }
 
+static void mirrored_faces_are_turned_about_their_middle(void **state)
+{
+    (void)state;
+    ppm_image_id images[6];
+    for (int i = 0; i < 6; i++)
+        images[i] = ramp_face(i);
+    ppm_cube_environment_desc desc = cube_of(images);
+    desc.is_mirrored = 1;
+    set_cube(&desc);
+    world_open(&world, &test);
+    /* to the right of -Z is +X: three quarters of the way, which is a quarter of the mirrored one
+     */
+    const ppmi_vec3 color = seen(vec3(0.5f, 0.25f, -1.0f));
+    assert_near(color.x, (0.25 * 8 - 0.5) / 7, 0.03);
+    assert_near(color.y, (0.375 * 8 - 0.5) / 7, 0.03);
+    assert_near(color.z, 5.0, 1e-5);
+    world_close(&world);
+}
+
 /* Middles, and points right of and below them as one looks from inside, up as the header says. */
 static void each_face_lies_where_it_should(void **state)
 {
@@ -197,6 +216,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(bad_cubes_are_refused),
         CASE(each_face_lies_where_it_should),
+        CASE(mirrored_faces_are_turned_about_their_middle),
         CASE(the_rotation_turns_the_cube),
         CASE(packed_colours_are_divided_by_their_alpha),
         CASE(a_constant_cube_lights_as_the_constant_does),

@@ -1,0 +1,89 @@
+/* The formats of KTX files: VkFormat and what it stores (Vulkan 1.3 specification, 49.1). */
+#include <stddef.h>
+
+#include "gltf/ktx2.h"
+
+#define LETTERS(a, b, c, d)                                                                        \
+    ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
+#define DXT1 LETTERS('D', 'X', 'T', '1')
+#define DXT3 LETTERS('D', 'X', 'T', '3')
+#define DXT5 LETTERS('D', 'X', 'T', '5')
+enum { DXGI_BC6H_UF16 = 95, DXGI_BC6H_SF16 = 96, DXGI_BC7 = 98 };
+
+/* BC4 and BC5 are not here: one or two channels that OpenImageIO takes for grey and no alpha. */
+static const ppmi_ktx2_format formats[] = {
+    {9, PPMI_KTX2_U8, 1, 1, false, false, 0},
+    {15, PPMI_KTX2_U8, 1, 1, true, false, 0},
+    {16, PPMI_KTX2_U8, 2, 2, false, false, 0},
+    {22, PPMI_KTX2_U8, 2, 2, true, false, 0},
+    {23, PPMI_KTX2_U8, 3, 3, false, false, 0},
+    {29, PPMI_KTX2_U8, 3, 3, true, false, 0},
+    {30, PPMI_KTX2_U8, 3, 3, false, true, 0},
+    {36, PPMI_KTX2_U8, 3, 3, true, true, 0},
+    {37, PPMI_KTX2_U8, 4, 4, false, false, 0},
+    {43, PPMI_KTX2_U8, 4, 4, true, false, 0},
+    {44, PPMI_KTX2_U8, 4, 4, false, true, 0},
+    {50, PPMI_KTX2_U8, 4, 4, true, true, 0},
+    {70, PPMI_KTX2_U16, 1, 2, false, false, 0},
+    {76, PPMI_KTX2_F16, 1, 2, false, false, 0},
+    {77, PPMI_KTX2_U16, 2, 4, false, false, 0},
+    {83, PPMI_KTX2_F16, 2, 4, false, false, 0},
+    {84, PPMI_KTX2_U16, 3, 6, false, false, 0},
+    {90, PPMI_KTX2_F16, 3, 6, false, false, 0},
+    {91, PPMI_KTX2_U16, 4, 8, false, false, 0},
+    {97, PPMI_KTX2_F16, 4, 8, false, false, 0},
+    {100, PPMI_KTX2_F32, 1, 4, false, false, 0},
+    {103, PPMI_KTX2_F32, 2, 8, false, false, 0},
+    {106, PPMI_KTX2_F32, 3, 12, false, false, 0},
+    {109, PPMI_KTX2_F32, 4, 16, false, false, 0},
+    {122, PPMI_KTX2_B10G11R11, 3, 4, false, false, 0},
+    {123, PPMI_KTX2_E5B9G9R9, 3, 4, false, false, 0},
+    {131, PPMI_KTX2_BLOCKS, 3, 8, false, false, DXT1},
+    {132, PPMI_KTX2_BLOCKS, 3, 8, true, false, DXT1},
+    {133, PPMI_KTX2_BLOCKS, 4, 8, false, false, DXT1},
+    {134, PPMI_KTX2_BLOCKS, 4, 8, true, false, DXT1},
+    {135, PPMI_KTX2_BLOCKS, 4, 16, false, false, DXT3},
+    {136, PPMI_KTX2_BLOCKS, 4, 16, true, false, DXT3},
+    {137, PPMI_KTX2_BLOCKS, 4, 16, false, false, DXT5},
+    {138, PPMI_KTX2_BLOCKS, 4, 16, true, false, DXT5},
+    {143, PPMI_KTX2_BLOCKS, 3, 16, false, false, DXGI_BC6H_UF16},
+    {144, PPMI_KTX2_BLOCKS, 3, 16, false, false, DXGI_BC6H_SF16},
+    {145, PPMI_KTX2_BLOCKS, 4, 16, false, false, DXGI_BC7},
+    {146, PPMI_KTX2_BLOCKS, 4, 16, true, false, DXGI_BC7},
+};
+
+/* Ranges of VkFormat that people meet and that are not read. */
+static const struct {
+    uint32_t first, last;
+    const char *name;
+} unread[] = {
+    {139, 140, "BC4"},
+    {141, 142, "BC5"},
+    {147, 152, "ETC2"},
+    {153, 156, "EAC"},
+    {157, 184, "ASTC"},
+    {1000054000, 1000054007, "PVRTC"},
+    {1000066000, 1000066013, "ASTC HDR"},
+};
+
+bool ppmi_ktx2_find_format(uint32_t vulkan, ppmi_ktx2_format *out)
+{
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
+        if (formats[i].vulkan != vulkan) continue;
+        *out = formats[i];
+        return true;
+    }
+    return false;
+}
+
+const char *ppmi_ktx2_format_name(uint32_t vulkan, uint32_t color_model)
+{
+    /* KHR_DF_MODEL_ETC1S, _UASTC, _UASTC_HDR_4x4 of the Khronos Data Format specification */
+    if (vulkan == 0 && color_model == 163) return "Basis Universal (ETC1S)";
+    if (vulkan == 0 && color_model == 166) return "Basis Universal (UASTC)";
+    if (vulkan == 0 && color_model == 167) return "Basis Universal (UASTC HDR)";
+    for (size_t i = 0; i < sizeof unread / sizeof unread[0]; ++i) {
+        if (vulkan >= unread[i].first && vulkan <= unread[i].last) return unread[i].name;
+    }
+    return NULL;
+}
