@@ -200,6 +200,10 @@ PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_sta
  * finished pass). */
 PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
 
+/* What layers of a kind are called: "combined", "caustics"; those of light groups "light" and
+ * "caustics", before the group's name. NULL for a number that is no kind. Static. */
+PPM_API const char *ppm_layer_kind_name(int32_t kind);
+
 /* A layer of the session: a picture of its own, of 1 to 4 channels. */
 typedef struct ppm_layer_info {
     uint32_t size;                /* sizeof(ppm_layer_info), set by the caller */

@@ -5,7 +5,7 @@
 #include "imageio/imageio.h"
 #include "ppm/render.h"
 
-enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 24, PPMI_OUTPUT_COUNTS_MAX = 4 };
+enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 64, PPMI_OUTPUT_COUNTS_MAX = 4 };
 
 /* Attributes, with the texts that they point to: must not be copied or moved. */
 typedef struct ppmi_output_header {

@@ -231,6 +231,12 @@ static void set_attribute(ImageSpec &spec, const ppmi_image_attribute &attribute
         spec.attribute(attribute.name, TypeDesc(TypeDesc::FLOAT, (int)attribute.float_count),
                        attribute.floats);
         break;
+    case PPMI_ATTRIBUTE_MATRIX:
+        spec.attribute(attribute.name, OIIO::TypeMatrix, attribute.floats);
+        break;
+    case PPMI_ATTRIBUTE_PAIR:
+        spec.attribute(attribute.name, TypeDesc(TypeDesc::FLOAT, TypeDesc::VEC2), attribute.floats);
+        break;
     case PPMI_ATTRIBUTE_RATIONAL:
         spec.attribute(attribute.name, TypeDesc(TypeDesc::INT, TypeDesc::VEC2, TypeDesc::RATIONAL),
                        attribute.rational);
@@ -304,6 +310,154 @@ ppm_status ppmi_oiio_encode(ppm_context *context, const char *format, const char
     return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&] {
         return encode(context, format, compression, path, *file, pixels, out_bytes, out_byte_count);
     });
+}
+
+/* ---- writing strip by strip ------------------------------------------------------------------ */
+
+/* Bytes on their way to a sink. What it answers is kept: exceptions of OpenEXR do not say it. */
+class sink_proxy final : public OIIO::Filesystem::IOProxy
+{
+  public:
+    explicit sink_proxy(const ppmi_oiio_sink &sink) : IOProxy("", IOProxy::Write), m_sink(sink)
+    {
+    }
+    const char *proxytype() const override
+    {
+        return "sink";
+    }
+    size_t write(const void *buf, size_t size) override
+    {
+        const size_t written = pwrite(buf, size, m_pos);
+        m_pos += (int64_t)written;
+        return written;
+    }
+    size_t pwrite(const void *buf, size_t size, int64_t offset) override
+    {
+        if (m_fault == 0) m_fault = m_sink.write(m_sink.user, buf, size, (uint64_t)offset);
+        return m_fault == 0 ? size : 0;
+    }
+    int fault() const
+    {
+        return m_fault;
+    }
+
+  private:
+    ppmi_oiio_sink m_sink;
+    int m_fault = 0;
+};
+
+struct ppmi_oiio_writer {
+    sink_proxy proxy;
+    std::vector<ImageSpec> specs;
+    std::unique_ptr<ImageOutput> output;
+
+    explicit ppmi_oiio_writer(const ppmi_oiio_sink &sink) : proxy(sink)
+    {
+    }
+    ~ppmi_oiio_writer()
+    {
+        if (output) message_of(*output);
+    }
+};
+
+static ppm_status fail_writer(ppm_context *context, ppmi_oiio_writer &writer, const char *path)
+{
+    const std::string reason = message_of(*writer.output);
+    if (writer.proxy.fault() == 0) {
+        return ppmi_fail(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, "%s: cannot be encoded: %s", path,
+                         reason.c_str());
+    }
+    return ppmi_fail(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, "%s: cannot be written: %s", path,
+                     strerror(writer.proxy.fault()));
+}
+
+static ImageSpec spec_of_part(const ppmi_layered_file &file, const ppmi_layered_part &part)
+{
+    ImageSpec spec((int)file.width, (int)file.height, (int)part.channel_count, TypeDesc::FLOAT);
+    for (uint32_t i = 0; i < part.channel_count; i++) {
+        const ppmi_layered_channel &channel = part.channels[i];
+        spec.channelnames[i] = channel.name;
+        spec.channelformats.push_back(stored_type(channel.store));
+    }
+    if (file.full_width > 0) {
+        spec.x = (int)file.x;
+        spec.y = (int)file.y;
+        spec.full_width = (int)file.full_width;
+        spec.full_height = (int)file.full_height;
+    }
+    if (file.tile_side > 0) {
+        spec.tile_width = spec.tile_height = (int)file.tile_side;
+        spec.tile_depth = 1;
+    }
+    if (file.compression) spec.attribute("compression", file.compression);
+    if (part.name) spec.attribute("oiio:subimagename", part.name);
+    spec.attribute("DateTime", "");
+    for (uint32_t i = 0; i < file.attribute_count; i++)
+        set_attribute(spec, file.attributes[i]);
+    return spec;
+}
+
+ppm_status ppmi_oiio_create_layered(ppm_context *context, const char *path,
+                                    const ppmi_layered_file *file, const ppmi_oiio_sink *sink,
+                                    ppmi_oiio_writer **out_writer) noexcept
+{
+    return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
+        auto writer = std::make_unique<ppmi_oiio_writer>(*sink);
+        for (uint32_t i = 0; i < file->part_count; i++)
+            writer->specs.push_back(spec_of_part(*file, file->parts[i]));
+        writer->output = ImageOutput::create("openexr");
+        if (!writer->output) {
+            OIIO::geterror();
+            return ppmi_fail(context, PPM_STATUS_OUTPUT_NOT_WRITABLE,
+                             "%s: this build of OpenImageIO cannot write OpenEXR files", path);
+        }
+        writer->output->threads(1);
+        writer->output->set_ioproxy(&writer->proxy);
+        *out_writer = writer.release();
+        return PPM_STATUS_OK;
+    });
+}
+
+ppm_status ppmi_oiio_begin_part(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                uint32_t part) noexcept
+{
+    return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
+        ImageOutput &output = *writer->output;
+        const std::vector<ImageSpec> &specs = writer->specs;
+        const bool is_open = part > 0 ? output.open(path, specs[part], ImageOutput::AppendSubimage)
+                             : specs.size() == 1
+                                 ? output.open(path, specs[0])
+                                 : output.open(path, (int)specs.size(), specs.data());
+        return is_open ? PPM_STATUS_OK : fail_writer(context, *writer, path);
+    });
+}
+
+ppm_status ppmi_oiio_write_rows(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                uint32_t y, uint32_t row_count, const float *values) noexcept
+{
+    return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
+        ImageOutput &output = *writer->output;
+        const ImageSpec &spec = output.spec();
+        const int begin = spec.y + (int)y, end = begin + (int)row_count;
+        const bool is_written =
+            spec.tile_width > 0 ? output.write_tiles(spec.x, spec.x + spec.width, begin, end, 0, 1,
+                                                     TypeDesc::FLOAT, values)
+                                : output.write_scanlines(begin, end, 0, TypeDesc::FLOAT, values);
+        return is_written ? PPM_STATUS_OK : fail_writer(context, *writer, path);
+    });
+}
+
+ppm_status ppmi_oiio_close_writer(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                  bool is_complete) noexcept
+{
+    const ppm_status status =
+        guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
+            /* the offsets of all blocks are written here, where errors are not told */
+            const bool is_closed = writer->output->close() && writer->proxy.fault() == 0;
+            return is_closed || !is_complete ? PPM_STATUS_OK : fail_writer(context, *writer, path);
+        });
+    delete writer;
+    return status;
 }
 
 const char *ppmi_oiio_version(void) noexcept

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "imageio/imageio.h"
+#include "imageio/layered.h"
 
 #ifdef __cplusplus
 #define PPMI_NOEXCEPT noexcept
@@ -50,6 +51,26 @@ void ppmi_oiio_close(ppmi_oiio_reader *reader) PPMI_NOEXCEPT;
 ppm_status ppmi_oiio_encode(ppm_context *context, const char *format, const char *compression,
                             const char *path, const ppmi_image_file *file, const void *pixels,
                             void **out_bytes, size_t *out_byte_count) PPMI_NOEXCEPT;
+
+/* Where encoded bytes go. write returns 0 or an errno. */
+typedef struct ppmi_oiio_sink {
+    int (*write)(void *user, const void *bytes, size_t byte_count, uint64_t offset);
+    void *user;
+} ppmi_oiio_sink;
+
+/* Encodes an OpenEXR file strip by strip: for each part in turn begin, then all its rows. read_rows
+ * of file is not used; file and what sink points to must outlive the writer. Close with is_complete
+ * false gives up. Return OK, OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY. */
+typedef struct ppmi_oiio_writer ppmi_oiio_writer;
+ppm_status ppmi_oiio_create_layered(ppm_context *context, const char *path,
+                                    const ppmi_layered_file *file, const ppmi_oiio_sink *sink,
+                                    ppmi_oiio_writer **out_writer) PPMI_NOEXCEPT;
+ppm_status ppmi_oiio_begin_part(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                uint32_t part) PPMI_NOEXCEPT;
+ppm_status ppmi_oiio_write_rows(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                uint32_t y, uint32_t row_count, const float *values) PPMI_NOEXCEPT;
+ppm_status ppmi_oiio_close_writer(ppm_context *context, ppmi_oiio_writer *writer, const char *path,
+                                  bool is_complete) PPMI_NOEXCEPT;
 
 /* "OpenImageIO 2.4.7.1". Static. */
 const char *ppmi_oiio_version(void) PPMI_NOEXCEPT;
