@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "api/output_facts.h"
 #include "api/output_header.h"
 #include "api/output_layers.h"
 #include "base/context.h"
@@ -65,6 +66,8 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     if (options->has_frame) {
         ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
     }
+    ppmi_output_facts facts;
+    ppmi_output_header_add_facts(&header, render, &facts);
     return ppmi_output_layers_write(context, render, path, options, &header);
 }
 

@@ -23,6 +23,10 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
                              const ppm_render_stats *stats, const char *integrator,
                              const char *camera, const char *command);
 
+/* One more attribute, to be filled in. */
+ppmi_image_attribute *ppmi_output_header_add(ppmi_output_header *header, const char *name,
+                                             int32_t type);
+
 /* Adds which frame it is. frames_per_second is above 0. */
 void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,
                                   double frames_per_second);

@@ -499,6 +499,11 @@ const ppm_scene *ppmi_render_scene(const ppm_render *render)
     return render->scene;
 }
 
+const ppmi_camera_view *ppmi_render_view(const ppm_render *render)
+{
+    return &render->job.view;
+}
+
 const char *ppmi_render_integrator_name(const ppm_render *render)
 {
     return render->integrator->name;
