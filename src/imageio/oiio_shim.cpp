@@ -460,6 +460,173 @@ ppm_status ppmi_oiio_close_writer(ppm_context *context, ppmi_oiio_writer *writer
     return status;
 }
 
+/* ---- reading parts of OpenEXR files ---------------------------------------------------------- */
+
+struct ppmi_oiio_part {
+    std::unique_ptr<ImageInput> input;
+    ImageSpec spec;
+    int index = 0;
+    std::string name;
+    std::vector<ppmi_image_attribute> attributes; /* point into spec */
+    /* Of files in tiles: the row of tiles that was read last. */
+    std::vector<float> band;
+    int band_begin = 0, band_end = 0;
+};
+
+/* False for what OpenImageIO adds by itself, and for types that are of no use here. */
+static bool get_attribute(const OIIO::ParamValue &value, ppmi_image_attribute &out)
+{
+    const TypeDesc type = value.type();
+    const std::string name = value.name().string();
+    if (name.compare(0, 5, "oiio:") == 0 || name.compare(0, 8, "openexr:") == 0) return false;
+    out = ppmi_image_attribute{};
+    out.name = value.name().c_str();
+    if (type == TypeDesc::STRING) {
+        out.type = PPMI_ATTRIBUTE_STRING;
+        out.text = value.get_ustring().c_str();
+    } else if (type == TypeDesc::INT || type == TypeDesc::UINT) {
+        out.type = PPMI_ATTRIBUTE_INT;
+        out.integer = value.get_int();
+    } else if (type.vecsemantics == TypeDesc::RATIONAL && type.basetype == TypeDesc::INT) {
+        out.type = PPMI_ATTRIBUTE_RATIONAL;
+        memcpy(out.rational, value.data(), sizeof out.rational);
+    } else if (type.basetype == TypeDesc::FLOAT) {
+        out.type = type == TypeDesc::FLOAT                ? PPMI_ATTRIBUTE_FLOAT
+                   : type.aggregate == TypeDesc::MATRIX44 ? PPMI_ATTRIBUTE_MATRIX
+                   : type.aggregate == TypeDesc::VEC2     ? PPMI_ATTRIBUTE_PAIR
+                                                          : PPMI_ATTRIBUTE_FLOATS;
+        out.floats = static_cast<const float *>(value.data());
+        out.float_count = (uint32_t)(type.numelements() * type.aggregate);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static void fill_part(ppmi_oiio_part &part, ppmi_oiio_part_info &info)
+{
+    const ImageSpec &spec = part.spec;
+    info.x = spec.x;
+    info.y = spec.y;
+    info.width = spec.width;
+    info.height = spec.height;
+    info.full_x = spec.full_x;
+    info.full_y = spec.full_y;
+    info.full_width = spec.full_width;
+    info.full_height = spec.full_height;
+    info.channel_count = spec.nchannels;
+    info.part_count = spec.get_int_attribute("oiio:subimages", 1);
+    info.is_deep = spec.deep;
+    part.name = spec.get_string_attribute("oiio:subimagename", "");
+    for (const OIIO::ParamValue &value : spec.extra_attribs) {
+        ppmi_image_attribute attribute;
+        if (get_attribute(value, attribute)) part.attributes.push_back(attribute);
+    }
+}
+
+static ppm_status fail_part(ppm_context *context, ppmi_oiio_part &part, const char *path,
+                            const char *what)
+{
+    const std::string reason = message_of(*part.input);
+    return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: %s: %s", path, what, reason.c_str());
+}
+
+ppm_status ppmi_oiio_part_open(ppm_context *context, const char *path, uint32_t index,
+                               ppmi_oiio_part **out_part, ppmi_oiio_part_info *out_info) noexcept
+{
+    return guarded(context, PPM_STATUS_INPUT_INVALID, path, [&]() -> ppm_status {
+        auto part = std::make_unique<ppmi_oiio_part>();
+        part->index = (int)index;
+        part->input = ImageInput::create("openexr");
+        if (!part->input) {
+            OIIO::geterror();
+            return ppmi_fail(context, PPM_STATUS_INPUT_UNSUPPORTED,
+                             "%s: this build of OpenImageIO cannot read OpenEXR files", path);
+        }
+        part->input->threads(1);
+        if (!part->input->open(path, part->spec)) {
+            return fail_part(context, *part, path, "not a usable OpenEXR image");
+        }
+        part->spec = part->input->spec(part->index);
+        fill_part(*part, *out_info);
+        *out_part = part.release();
+        return PPM_STATUS_OK;
+    });
+}
+
+/* Rows of tiles come whole; what is asked for is copied out of them. */
+static bool read_tiled(ppmi_oiio_part &part, int begin, int end, float *values)
+{
+    const ImageSpec &spec = part.spec;
+    const size_t row_values = (size_t)spec.width * (size_t)spec.nchannels;
+    for (int y = begin; y < end; y++, values += row_values) {
+        if (y < part.band_begin || y >= part.band_end) {
+            const int row = (y - spec.y) / spec.tile_height;
+            const int top = spec.y + row * spec.tile_height, bottom = spec.y + spec.height;
+            const int next = top + spec.tile_height < bottom ? top + spec.tile_height : bottom;
+            part.band.resize(row_values * (size_t)(next - top));
+            part.band_begin = part.band_end = 0;
+            if (!part.input->read_tiles(part.index, 0, spec.x, spec.x + spec.width, top, next, 0, 1,
+                                        0, spec.nchannels, TypeDesc::FLOAT, part.band.data())) {
+                return false;
+            }
+            part.band_begin = top;
+            part.band_end = next;
+        }
+        memcpy(values, part.band.data() + row_values * (size_t)(y - part.band_begin),
+               row_values * sizeof *values);
+    }
+    return true;
+}
+
+ppm_status ppmi_oiio_part_read(ppm_context *context, ppmi_oiio_part *part, const char *path,
+                               uint32_t y, uint32_t row_count, float *values) noexcept
+{
+    return guarded(context, PPM_STATUS_INPUT_INVALID, path, [&]() -> ppm_status {
+        const ImageSpec &spec = part->spec;
+        const int begin = spec.y + (int)y, end = begin + (int)row_count;
+        const bool is_read =
+            spec.tile_width > 0
+                ? read_tiled(*part, begin, end, values)
+                : part->input->read_scanlines(part->index, 0, begin, end, 0, 0, spec.nchannels,
+                                              TypeDesc::FLOAT, values);
+        return is_read ? PPM_STATUS_OK
+                       : fail_part(context, *part, path, "the pixels cannot be decoded");
+    });
+}
+
+const char *ppmi_oiio_part_name(const ppmi_oiio_part *part) noexcept
+{
+    return part->name.c_str();
+}
+
+const char *ppmi_oiio_part_channel(const ppmi_oiio_part *part, int32_t index) noexcept
+{
+    return part->spec.channelnames[(size_t)index].c_str();
+}
+
+uint32_t ppmi_oiio_part_attribute_count(const ppmi_oiio_part *part) noexcept
+{
+    return (uint32_t)part->attributes.size();
+}
+
+const ppmi_image_attribute *ppmi_oiio_part_attribute(const ppmi_oiio_part *part,
+                                                     uint32_t index) noexcept
+{
+    return &part->attributes[index];
+}
+
+void ppmi_oiio_part_close(ppmi_oiio_part *part) noexcept
+{
+    if (!part) return;
+    guarded(nullptr, PPM_STATUS_INTERNAL, "", [&] {
+        part->input->close();
+        message_of(*part->input);
+        return PPM_STATUS_OK;
+    });
+    delete part;
+}
+
 const char *ppmi_oiio_version(void) noexcept
 {
     return "OpenImageIO " OIIO_VERSION_STRING;
