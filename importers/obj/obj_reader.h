@@ -80,6 +80,7 @@ struct ppmi_obj_reader {
     uint32_t smoothing, material;
     bool is_new_run;
     ppmi_obj_names objects;        /* names of nodes */
+    ppmi_obj_array object_lengths; /* size_t: of the part of each that is an object's name */
     ppmi_obj_names used_materials; /* by usemtl */
     ppmi_obj_names library_names;  /* by mtllib, as written */
 

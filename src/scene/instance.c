@@ -90,6 +90,7 @@ void ppmi_instance_shift(ppmi_instance *instance, ppmi_vec3 shift)
 void ppmi_instance_deinit(ppm_context *context, ppmi_instance *instance)
 {
     ppmi_free(context, instance->motion);
+    ppmi_free(context, instance->asset);
     ppmi_free(context, instance->name);
 }
 
@@ -127,8 +128,9 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
         return PPM_STATUS_OK;
     }
     instance->name = ppmi_string_copy(scene->context, name);
-    if (!instance->name) {
-        ppmi_free(scene->context, instance->motion);
+    instance->asset = ppmi_string_copy(scene->context, desc->asset ? desc->asset : name);
+    if (!instance->name || !instance->asset) {
+        ppmi_instance_deinit(scene->context, instance);
         return fail_memory(scene);
     }
     instance->mesh = desc->mesh - 1;
