@@ -59,7 +59,17 @@ enum {
  * docs/compositing.md says what each holds.
  *
  * The light layers DIFFUSE_DIRECT .. VOLUME part the picture: they add up to it, and so do the
- * light groups among themselves. */
+ * light groups among themselves. Light that the camera sees straight, or through alpha, is EMISSION
+ * or ENVIRONMENT. Light that met specular surfaces after it left its lamp and before its first
+ * diffuse one is CAUSTICS, wherever it goes on; specular are mirrors, smooth glass and all else too
+ * narrow for photons to be gathered. All other light is of the class of what the camera sees it on:
+ * VOLUME in fog and cloudy solids, TRANSMISSION through a surface, DIFFUSE or GLOSSY by its
+ * reflection, DIRECT where it comes there straight from the lamp.
+ *
+ * VARIANCE is an estimate, from the differences between passes: of the square of the standard
+ * deviation of each channel, 0 after the first pass. It does not know that passes are spread evenly
+ * (path: it is rather too large), nor that radii are still too large (SPPM), nor of what the eye
+ * paths of an epoch miss (PPM). PHOTON_DENSITY and RADIUS are of surfaces, and 0 of PATH. */
 enum {
     PPM_LAYER_COMBINED = 0, /* the picture; always there */
     PPM_LAYER_DIFFUSE_DIRECT = 1,
@@ -76,7 +86,7 @@ enum {
 
     PPM_LAYER_VARIANCE = 12,       /* of the picture's mean over the passes */
     PPM_LAYER_PHOTON_DENSITY = 13, /* photons gathered by area, 1/m2; SPPM and PPM */
-    PPM_LAYER_RADIUS = 14,         /* of the gathering, metres; SPPM and PPM */
+    PPM_LAYER_RADIUS = 14,         /* of the latest gathering, metres; SPPM and PPM */
 
     PPM_LAYER_ALBEDO = 15,
     PPM_LAYER_NORMAL = 16,
@@ -89,7 +99,8 @@ enum {
     PPM_LAYER_CRYPTO_OBJECT = 23,  /* Cryptomatte 1.2, ranked ids and coverage */
     PPM_LAYER_CRYPTO_MATERIAL = 24,
     PPM_LAYER_CRYPTO_ASSET = 25,
-    PPM_LAYER_KINDS = 26
+    PPM_LAYER_LIGHT_VARIANCE = 26, /* as VARIANCE, of DIFFUSE_DIRECT .. VOLUME: a layer for each */
+    PPM_LAYER_KINDS = 27
 };
 #define PPM_LAYER_BIT(kind) (UINT64_C(1) << (kind))
 
@@ -139,7 +150,8 @@ typedef struct ppm_render_options {
     uint64_t layers;            /* PPM_LAYER_BIT of each kind that is wanted beside the picture */
     int32_t light_groups;       /* PPM_LIGHT_GROUPS_ */
     uint32_t is_transparent;    /* non-zero: what the camera sees of the environment straight is
-                                   transparent; else alpha is 1 */
+                                   transparent: left out of the picture and its layers, with alpha
+                                   premultiplied; else alpha is 1 */
     uint32_t normals_of_camera; /* non-zero: normals in the camera's space; else the world's */
     uint32_t follows_specular;  /* non-zero: albedo and normal are of what is seen in mirrors and
                                    through glass */

@@ -271,7 +271,8 @@ PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_d
  * would refuse, and OUT_OF_MEMORY; a call that fails changes nothing. Names stay as they were. What
  * does not change keeps its acceleration structure for the next session. */
 
-/* A new transform, or motion, as in ppm_instance_desc; name and mesh of desc are not used. While
+/* A new transform, or motion, as in ppm_instance_desc; name, mesh, asset and
+ * light_group of desc are not used. While
  * its transform is singular (at all motion steps) the instance is not there: give one that is not
  * to ppm_scene_add_instance, which drops such instances, where they are to appear later. */
 PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
@@ -399,7 +400,7 @@ typedef struct ppm_light_desc {
 PPM_API ppm_status ppm_scene_add_light(ppm_scene *scene, const ppm_light_desc *desc,
                                        ppm_light_id *out_id);
 
-/* Replaces a light, as the calls under "changes between frames" do. */
+/* Replaces a light, its group too, as the calls under "changes between frames" do. */
 PPM_API ppm_status ppm_scene_set_light(ppm_scene *scene, ppm_light_id id,
                                        const ppm_light_desc *desc);
 
@@ -414,7 +415,7 @@ typedef struct ppm_environment_desc {
     const char *light_group; /* NULL or "": none is given */
 } ppm_environment_desc;
 
-/* Sets or replaces the environment. Without one it is black.
+/* Sets or replaces the environment, its group too. Without one it is black.
  * The backdrop replaces what the camera sees straight ahead, and nothing else: light, reflections
  * and refractions are those of the environment. */
 PPM_API ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_desc *desc);

@@ -162,6 +162,7 @@ ppm_status ppm_scene_set_cube_environment(ppm_scene *scene, const ppm_cube_envir
         .radiance = {desc->radiance[0], desc->radiance[1], desc->radiance[2]},
         .has_backdrop = before->has_backdrop,
         .backdrop = {before->backdrop.x, before->backdrop.y, before->backdrop.z},
+        .light_group = before->light_group,
     };
     status = add_image(scene, desc, &environment.image);
     return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;

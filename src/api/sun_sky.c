@@ -65,6 +65,7 @@ static ppm_status set_sky(ppm_scene *scene, const ppmi_sky *sky, const ppm_sun_s
         .radiance = {desc->factor, desc->factor, desc->factor},
         .has_backdrop = before->has_backdrop,
         .backdrop = {before->backdrop.x, before->backdrop.y, before->backdrop.z},
+        .light_group = before->light_group,
     };
     const ppm_status status = add_sky_image(scene, sky, desc->ground_albedo, &environment.image);
     return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;

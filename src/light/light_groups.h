@@ -2,10 +2,12 @@
 #ifndef PPMI_LIGHT_GROUPS_H
 #define PPMI_LIGHT_GROUPS_H
 
-#include "scene/scene.h"
+#include "light/lights.h"
 
 /* Every emitter is in one group. Names are unique; they are those of the scene's light_group
- * fields, of lights, or "rest". */
+ * fields, of lights, or "rest", in the order in which they are first met: punctual lights,
+ * instances that shine, the environment. Where lights have groups of their own, the given ones come
+ * first, and a light whose name is taken gets a number behind it. */
 typedef struct ppmi_light_groups {
     uint32_t count;
     char **names;
@@ -19,5 +21,9 @@ typedef struct ppmi_light_groups {
 ppm_status ppmi_light_groups_create(ppm_context *context, const ppm_scene *scene, int32_t mode,
                                     ppmi_light_groups **out_groups);
 void ppmi_light_groups_destroy(ppm_context *context, ppmi_light_groups *groups);
+
+/* The group of an emitter of the scene's lights. */
+uint32_t ppmi_light_groups_of(const ppmi_light_groups *groups, const ppmi_lights *lights,
+                              uint32_t emitter);
 
 #endif

@@ -143,6 +143,7 @@ static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table,
     const uint32_t i = ppmi_alias_sample(table, u_pick, NULL);
     const ppmi_emitter *e = &lights->emitters[first + i];
     sample->pdf *= ppmi_alias_probability(table, i);
+    sample->emitter = first + i;
     if (!(sample->pdf > 0.0f)) return false;
     if (e->kind == PPMI_EMITTER_PUNCTUAL) {
         return sample_punctual(lights->scene, &lights->scene->punctuals[e->triangle], position,
@@ -212,6 +213,7 @@ bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool 
     }
     if (nearest == PPMI_NO_EMITTER) return false;
     *hit = (ppmi_lamp_hit){.t = nearest_t, .next = nearest + 1, .lamp = nearest};
+    hit->emitter = lights->lamps[nearest].emitter;
     hit->radiance =
         ppmi_lamp_radiance(lights->scene, &lights->lamps[nearest], vec3_neg(ray->direction));
     return true;
@@ -246,6 +248,31 @@ ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi)
         if (ppmi_sun_holds(sun, wi)) radiance = vec3_add(radiance, sun->radiance);
     }
     return radiance;
+}
+
+bool ppmi_lights_far_part(const ppmi_lights *lights, ppmi_vec3 wi, uint32_t part,
+                          ppmi_vec3 *out_radiance, uint32_t *out_emitter)
+{
+    *out_radiance = vec3_splat(0.0f);
+    *out_emitter = lights->count - 1; /* the environment is the last, where there is one */
+    if (part > lights->directional_count) return false;
+    if (part == 0) {
+        if (lights->has_environment) {
+            *out_radiance = ppmi_environment_map_radiance(&lights->environment, wi);
+        }
+        return true;
+    }
+    *out_emitter = lights->near_count + part - 1;
+    const ppmi_emitter *e = &lights->emitters[*out_emitter];
+    if (e->kind != PPMI_EMITTER_SUN) return true;
+    const ppmi_sun *sun = &lights->suns[e->primitive];
+    if (ppmi_sun_holds(sun, wi)) *out_radiance = sun->radiance;
+    return true;
+}
+
+bool ppmi_lights_has_backdrop(const ppmi_lights *lights)
+{
+    return lights->scene->environment.has_backdrop;
 }
 
 ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction)

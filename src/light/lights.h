@@ -25,6 +25,8 @@ typedef struct ppmi_light_sample {
     ppmi_vec3 radiance; /* for delta lights: irradiance on a plane that faces them */
     float pdf;          /* by solid angle, choice included; of the choice alone for delta lights */
     bool is_delta;
+    uint32_t emitter; /* that it comes from; not of far light that is not delta: see
+                         ppmi_lights_far_part */
 } ppmi_light_sample;
 
 /* Samples one light for a surface at position with shading normal n (on the side that receives), or
@@ -53,6 +55,7 @@ typedef struct ppmi_lamp_hit {
     float t;       /* 0 to begin with */
     uint32_t next; /* 0 to begin with: what is not met again */
     uint32_t lamp;
+    uint32_t emitter;
     ppmi_vec3 radiance; /* towards the ray's origin */
 } ppmi_lamp_hit;
 
@@ -72,6 +75,13 @@ float ppmi_lights_pdf_lamp(const ppmi_lights *lights, uint32_t lamp, ppmi_vec3 p
  * lights whose disk holds wi. */
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi);
 
+/* What ppmi_lights_environment adds up: of part 0, the environment, and of the parts beyond, the
+ * directional lights (black where the disk does not hold wi). False beyond the last part. */
+bool ppmi_lights_far_part(const ppmi_lights *lights, ppmi_vec3 wi, uint32_t part,
+                          ppmi_vec3 *out_radiance, uint32_t *out_emitter);
+
+bool ppmi_lights_has_backdrop(const ppmi_lights *lights);
+
 /* What a camera ray sees that meets nothing: the backdrop, or else what is infinitely far. */
 ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction);
 
@@ -80,6 +90,7 @@ ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction);
 typedef struct ppmi_emission {
     ppmi_ray ray;
     ppmi_vec3 power;
+    uint32_t emitter;
 } ppmi_emission;
 
 /* Which of at most groups groups of lights u_pick chooses: lights of one group take u alike. Lamps

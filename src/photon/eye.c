@@ -42,6 +42,11 @@ typedef struct eye_path {
     uint32_t owner;
     ppmi_visible_points *points;
     ppmi_vec3 *radiance;
+    const ppmi_light_sink *sink;    /* or NULL; of the branch that is followed: */
+    ppmi_eye_history history;       /* of its throughput */
+    ppmi_eye_history light_history; /* of its light_throughput */
+    ppmi_lamp_deposit lamp_deposit;
+    ppmi_eye_history histories[MAX_BRANCHES]; /* of those that wait */
     eye_branch waiting[MAX_BRANCHES];
     ppmi_differential differentials[MAX_BRANCHES]; /* the walker's, of those that wait */
     uint32_t waiting_count;
@@ -54,10 +59,85 @@ typedef struct eye_vertex {
     ppmi_bsdf bsdf;
 } eye_vertex;
 
-static void add(eye_path *path, ppmi_vec3 throughput, ppmi_vec3 radiance)
+/* False for light that is not finite: it is left out. */
+static bool add(eye_path *path, ppmi_vec3 throughput, ppmi_vec3 radiance, ppmi_vec3 *out_added)
 {
-    const ppmi_vec3 added = vec3_mul(throughput, radiance);
-    if (vec3_is_finite(added)) *path->radiance = vec3_add(*path->radiance, added);
+    *out_added = vec3_mul(throughput, radiance);
+    if (!vec3_is_finite(*out_added)) return false;
+    *path->radiance = vec3_add(*path->radiance, *out_added);
+    return true;
+}
+
+static void add_emission(eye_path *path, const ppmi_eye_history *history, const ppmi_vertex *vertex,
+                         ppmi_vec3 throughput, ppmi_vec3 radiance)
+{
+    ppmi_vec3 added;
+    if (add(path, throughput, radiance, &added) && path->sink) {
+        ppmi_light_sink_add_emission(path->sink, history, vertex, added);
+    }
+}
+
+static void add_environment(eye_path *path, const ppmi_eye_history *history, ppmi_vec3 direction,
+                            ppmi_vec3 throughput, const ppmi_origin *origin)
+{
+    float mis;
+    const ppmi_vec3 radiance = ppmi_walk_environment_weighed(path->walker, direction, origin, &mis);
+    ppmi_vec3 added;
+    if (add(path, throughput, radiance, &added) && path->sink) {
+        ppmi_light_sink_add_far(path->sink, history, direction, vec3_scale(throughput, mis), added);
+    }
+}
+
+/* What the camera sees behind everything. */
+static void add_backdrop(eye_path *path, ppmi_vec3 direction, ppmi_vec3 throughput)
+{
+    const ppmi_light_sink *sink = path->sink;
+    if (sink && sink->seen_through) {
+        *sink->seen_through += vec3_mean(throughput);
+        return;
+    }
+    const ppmi_vec3 radiance = ppmi_lights_backdrop(path->walker->world->lights, direction);
+    ppmi_vec3 added;
+    if (add(path, throughput, radiance, &added) && sink) {
+        ppmi_light_sink_add_backdrop(sink, &path->light_history, direction, throughput, added);
+    }
+}
+
+static void sample_light(eye_path *path, const eye_vertex *at, ppmi_vec3 throughput)
+{
+    ppmi_lit lit;
+    const ppmi_vec3 radiance =
+        ppmi_walk_light_sample_of(path->walker, &at->vertex, &at->bsdf, &lit);
+    ppmi_vec3 added;
+    if (add(path, throughput, radiance, &added) && path->sink && !vec3_is_black(added)) {
+        ppmi_light_sink_add_sample(path->sink, &path->history, &at->bsdf,
+                                   path->walker->world->albedo, &lit, throughput, added);
+    }
+}
+
+/* Around a walk that meets lamps: what it meets goes into lamplight, and one by one to groups. */
+static void watch_lamps(eye_path *path, const ppmi_eye_history *history, ppmi_vec3 throughput)
+{
+    if (!path->sink) return;
+    ppmi_lamp_deposit_begin(&path->lamp_deposit, path->walker, path->sink, history, throughput);
+}
+
+static void add_lamps(eye_path *path, const ppmi_eye_history *history, ppmi_vec3 throughput,
+                      ppmi_vec3 lamplight)
+{
+    ppmi_vec3 added;
+    path->walker->lamp_witness = NULL;
+    if (add(path, throughput, lamplight, &added) && path->sink) {
+        ppmi_light_sink_add_classes(path->sink, history, PPM_LAYER_EMISSION, added);
+    }
+}
+
+static void scatter(const eye_path *path, const eye_vertex *at, const ppmi_bsdf_sample *sample,
+                    uint32_t mask, ppmi_eye_history *history)
+{
+    if (!path->sink) return;
+    ppmi_eye_history_scatter(history, &at->bsdf, path->walker->world->albedo, sample->wi, mask,
+                             sample->is_delta);
 }
 
 /* ---- gathering ------------------------------------------------------------------------------- */
@@ -78,6 +158,7 @@ static void record(eye_path *path, const eye_branch *branch, const eye_vertex *a
         .footprint = footprint(branch, &at->bsdf),
         .throughput = vec3_scale(branch->throughput, 1.0f / probability),
         .owner = path->owner,
+        .eye_class = path->sink ? ppmi_eye_history_class(&path->history) : 0,
         .bsdf = at->bsdf,
     };
     if (!ppmi_visible_points_push(path->context, path->points, &point)) {
@@ -109,6 +190,9 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
         weight = vec3_scale(f, fabsf(ppmi_bsdf_cosine(bsdf, sample.wi)) / pdf);
     }
     ppmi_vec3 throughput = vec3_mul(branch->throughput, weight);
+    ppmi_eye_history history;
+    if (path->sink) history = path->history;
+    scatter(path, at, &sample, is_split ? bsdf->gather_lobes : PPMI_LOBE_ALL, &history);
     const ppmi_origin origin = {
         .position = at->vertex.surface.position, .pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
     const ppmi_interior interior = walker->interior;
@@ -118,14 +202,16 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
     const ppmi_ray ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput);
     ppmi_vertex next;
     walker->origin = &origin;
+    watch_lamps(path, &history, throughput);
     const ppmi_arrival arrival = ppmi_walk(walker, ray, PPMI_RAY_OTHER, &next);
     walker->origin = NULL;
-    add(path, throughput, next.lamplight);
+    add_lamps(path, &history, throughput, next.lamplight);
     throughput = vec3_mul(throughput, next.transmittance);
     if (arrival == PPMI_AT_SURFACE) {
-        add(path, throughput, ppmi_walk_emission(walker, &next, sample.wi, &origin));
+        add_emission(path, &history, &next, throughput,
+                     ppmi_walk_emission(walker, &next, sample.wi, &origin));
     } else if (arrival == PPMI_ESCAPED) {
-        add(path, throughput, ppmi_walk_environment(walker, sample.wi, &origin));
+        add_environment(path, &history, sample.wi, throughput, &origin);
     }
     walker->interior = interior;
     walker->wavelength_nm = wavelength;
@@ -183,7 +269,11 @@ static bool go_on(eye_path *path, eye_branch *branch, const eye_vertex *at, uint
     if (!draw(path, at, mask, &sample)) return false;
     const ppmi_vec3 weight = vec3_scale(sample.weight, 1.0f / probability);
     ppmi_vec3 light_weight = weight;
-    if (!sample.is_delta && path->settings->samples_lights) {
+    if (path->sink) path->light_history = path->history;
+    const bool is_weighed = !sample.is_delta && path->settings->samples_lights;
+    scatter(path, at, &sample, mask, &path->history);
+    scatter(path, at, &sample, is_weighed ? PPMI_LOBE_ALL : mask, &path->light_history);
+    if (is_weighed) {
         const ppmi_vec3 f = ppmi_bsdf_eval(&at->bsdf, path->walker->world->albedo, sample.wi,
                                            PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
         const float pdf = ppmi_bsdf_pdf(&at->bsdf, sample.wi, PPMI_LOBE_ALL);
@@ -193,7 +283,7 @@ static bool go_on(eye_path *path, eye_branch *branch, const eye_vertex *at, uint
     return true;
 }
 
-static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *at,
+static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *at, uint32_t mask,
                     const ppmi_bsdf_sample *sample)
 {
     const ppmi_interior interior = path->walker->interior;
@@ -207,6 +297,10 @@ static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *
     if (!vec3_is_black(next.throughput)) {
         ppmi_differential_copy(&path->differentials[path->waiting_count],
                                &path->walker->differential);
+        if (path->sink) {
+            path->histories[path->waiting_count] = path->history;
+            scatter(path, at, sample, mask, &path->histories[path->waiting_count]);
+        }
         path->waiting[path->waiting_count++] = next;
     }
     ppmi_differential_copy(&path->walker->differential, &differential);
@@ -219,10 +313,10 @@ static void split(eye_path *path, const eye_branch *branch, const eye_vertex *at
     const uint32_t count = ppmi_bsdf_branches(&at->bsdf, path->walker->world->albedo, mask,
                                               PPMI_TRANSPORT_RADIANCE, samples);
     for (uint32_t i = 0; i < count; i++)
-        put_off(path, branch, at, &samples[i]);
+        put_off(path, branch, at, mask, &samples[i]);
     const uint32_t narrow = mask & (uint32_t)~at->bsdf.delta_lobes;
     ppmi_bsdf_sample sample;
-    if (narrow != 0 && draw(path, at, narrow, &sample)) put_off(path, branch, at, &sample);
+    if (narrow != 0 && draw(path, at, narrow, &sample)) put_off(path, branch, at, narrow, &sample);
 }
 
 static bool may_split(const eye_path *path, const eye_branch *branch)
@@ -245,14 +339,6 @@ static bool survives_roulette(ppmi_walker *walker, eye_branch *branch)
     return true;
 }
 
-static ppmi_vec3 sky(const eye_path *path, const eye_branch *branch)
-{
-    if (branch->depth == 0) {
-        return ppmi_lights_backdrop(path->walker->world->lights, branch->ray.direction);
-    }
-    return ppmi_walk_environment(path->walker, branch->ray.direction, &branch->origin);
-}
-
 /* Gathers where a medium scatters the path on the way to its next vertex. */
 static void scatter_on_the_way(eye_path *path, const eye_branch *branch,
                                const ppmi_vertex *scattered)
@@ -263,7 +349,7 @@ static void scatter_on_the_way(eye_path *path, const eye_branch *branch,
     in_medium.cone_width += path->cone_spread * scattered->distance;
     ppmi_walk_bsdf(path->walker, &at.vertex, branch->ray.direction, &at.bsdf);
     if (path->settings->samples_lights) {
-        add(path, in_medium.throughput, ppmi_walk_light_sample(path->walker, &at.vertex, &at.bsdf));
+        sample_light(path, &at, in_medium.throughput);
     }
     gather(path, &in_medium, &at, 1.0f, false);
 }
@@ -275,9 +361,11 @@ static ppmi_arrival walk(eye_path *path, eye_branch *branch, ppmi_vertex *vertex
     ppmi_walker *walker = path->walker;
     const ppmi_ray_kind kind = branch->depth == 0 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER;
     walker->origin = &branch->origin;
+    watch_lamps(path, &path->light_history, branch->light_throughput);
     if (!walker->world->has_scattering || branch->media_splits >= path->settings->media_depth) {
         const ppmi_arrival arrival = ppmi_walk(walker, branch->ray, kind, vertex);
         walker->origin = NULL;
+        walker->lamp_witness = NULL;
         return arrival;
     }
     ppmi_vertex scattered[MEDIA_POINTS];
@@ -286,6 +374,7 @@ static ppmi_arrival walk(eye_path *path, eye_branch *branch, ppmi_vertex *vertex
     const ppmi_arrival arrival =
         ppmi_walk_both_ways(walker, branch->ray, kind, vertex, scattered, count);
     walker->origin = NULL;
+    walker->lamp_witness = NULL;
     const ppmi_interior after = walker->interior;
     walker->interior = before;
     for (uint32_t i = 0; i < count; i++) {
@@ -302,16 +391,23 @@ static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
     ppmi_walker *walker = path->walker;
     const ppmi_arrival arrival = walk(path, branch, &at->vertex);
     const ppmi_vec3 transmittance = at->vertex.transmittance;
-    add(path, branch->light_throughput, at->vertex.lamplight);
+    add_lamps(path, &path->light_history, branch->light_throughput, at->vertex.lamplight);
     branch->throughput = vec3_mul(branch->throughput, transmittance);
     branch->light_throughput = vec3_mul(branch->light_throughput, transmittance);
     if (arrival == PPMI_ESCAPED) {
-        add(path, branch->light_throughput, sky(path, branch));
+        const ppmi_vec3 direction = branch->ray.direction;
+        if (branch->depth == 0) {
+            add_backdrop(path, direction, branch->light_throughput);
+        } else {
+            add_environment(path, &path->light_history, direction, branch->light_throughput,
+                            &branch->origin);
+        }
         return false;
     }
     branch->cone_width += path->cone_spread * at->vertex.distance;
     if (arrival == PPMI_AT_SURFACE) {
-        add(path, branch->light_throughput,
+        add_emission(
+            path, &path->light_history, &at->vertex, branch->light_throughput,
             ppmi_walk_emission(walker, &at->vertex, branch->ray.direction, &branch->origin));
     }
     if (!survives_roulette(walker, branch)) return false;
@@ -324,10 +420,7 @@ static void follow(eye_path *path, eye_branch branch)
 {
     eye_vertex at;
     while (branch.depth < path->settings->max_depth && arrive(path, &branch, &at)) {
-        if (path->settings->samples_lights) {
-            add(path, branch.throughput,
-                ppmi_walk_light_sample(path->walker, &at.vertex, &at.bsdf));
-        }
+        if (path->settings->samples_lights) sample_light(path, &at, branch.throughput);
         const uint32_t others = (uint32_t)(at.bsdf.lobes & ~at.bsdf.gather_lobes);
         const float gathering = ppmi_bsdf_probability(&at.bsdf, at.bsdf.gather_lobes);
         if (may_split(path, &branch)) {
@@ -346,7 +439,7 @@ static void follow(eye_path *path, eye_branch branch)
 
 bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
                    const ppmi_eye_settings *settings, uint32_t owner, ppmi_visible_points *points,
-                   ppmi_vec3 *radiance)
+                   ppmi_vec3 *radiance, const ppmi_light_sink *sink)
 {
     eye_path path;
     path.context = context;
@@ -356,6 +449,7 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
     path.owner = owner;
     path.points = points;
     path.radiance = radiance;
+    path.sink = sink;
     path.waiting_count = 1;
     path.is_out_of_memory = false;
     path.waiting[0] = (eye_branch){
@@ -368,12 +462,14 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
         .interior = walker->interior,
         .wavelength_nm = walker->wavelength_nm,
     };
+    if (sink) path.histories[0] = ppmi_eye_history_start();
     ppmi_differential_copy(&path.differentials[0], &walker->differential);
     while (path.waiting_count > 0) {
         const eye_branch branch = path.waiting[--path.waiting_count];
         walker->interior = branch.interior;
         walker->wavelength_nm = branch.wavelength_nm;
         ppmi_differential_copy(&walker->differential, &path.differentials[path.waiting_count]);
+        if (sink) path.history = path.light_history = path.histories[path.waiting_count];
         follow(&path, branch);
     }
     return !path.is_out_of_memory;

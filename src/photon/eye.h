@@ -5,7 +5,7 @@
 
 #include "camera/camera.h"
 #include "photon/point.h"
-#include "transport/world.h"
+#include "transport/light_layers.h"
 
 enum { PPMI_MAX_SPLIT_DEPTH = 12 };
 
@@ -20,9 +20,9 @@ typedef struct ppmi_eye_settings {
 
 /* Follows one camera path. Light that needs no photons (emission, the environment, light sampling)
  * is added to *radiance; visible points are appended to points, with owner: at most one if the path
- * never splits. False when memory is out. */
+ * never splits. sink gets the same light by layers; it may be NULL. False when memory is out. */
 bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_ray *camera_ray,
                    const ppmi_eye_settings *settings, uint32_t owner, ppmi_visible_points *points,
-                   ppmi_vec3 *radiance);
+                   ppmi_vec3 *radiance, const ppmi_light_sink *sink);
 
 #endif

@@ -32,7 +32,8 @@ static bool is_on_surface(const ppmi_bsdf *bsdf, ppmi_vec3 ng)
 
 /* Whether the photon counted. */
 static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
-                       const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered)
+                       const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered,
+                       ppmi_vec3 *out_contribution)
 {
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
     if (!is_phase) {
@@ -43,6 +44,7 @@ static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
         ppmi_bsdf_eval(bsdf, albedo, photon->wi, bsdf->gather_lobes, PPMI_TRANSPORT_RADIANCE);
     const ppmi_vec3 contribution = vec3_scale(vec3_mul(f, photon->power), kernel);
     if (vec3_is_black(contribution)) return false;
+    *out_contribution = contribution;
     gathered->flux = vec3_add(gathered->flux, contribution);
     gathered->count += 1.0f;
     return true;
@@ -72,9 +74,29 @@ static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint3
     return selected;
 }
 
-/* marks may be NULL. */
-static ppmi_gathered gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                            const ppmi_visible_point *point, float radius, atomic_uchar *marks)
+static ppmi_vec3 share_of_255(const uint8_t share[3])
+{
+    return vec3((float)share[0] / 255.0f, (float)share[1] / 255.0f, (float)share[2] / 255.0f);
+}
+
+static void add_to_layers(const ppmi_gather_layers *layers, const ppmi_visible_point *point,
+                          const ppmi_albedo_table *albedo, uint32_t photon, ppmi_vec3 contribution)
+{
+    const ppmi_photon_tag *tag = &layers->photons[photon].tag;
+    const ppmi_photon_light light = {.radiance = vec3_mul(contribution, layers->factor),
+                                     .wi = layers->photons[photon].wi,
+                                     .caustic = share_of_255(tag->caustic),
+                                     .is_straight = tag->is_straight != 0,
+                                     .group = tag->group};
+    ppmi_light_sink_add_photon(layers->sink, point->eye_class, &point->bsdf, albedo, &light);
+}
+
+/* marks and layers may be NULL. */
+static inline __attribute__((always_inline)) ppmi_gathered gather(const ppmi_photon_grid *grid,
+                                                                  const ppmi_albedo_table *albedo,
+                                                                  const ppmi_visible_point *point,
+                                                                  float radius, atomic_uchar *marks,
+                                                                  const ppmi_gather_layers *layers)
 {
     const ppmi_bsdf *bsdf = &point->bsdf;
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
@@ -94,9 +116,13 @@ static ppmi_gathered gather(const ppmi_photon_grid *grid, const ppmi_albedo_tabl
             const uint32_t selected = select_block(grid, begin, count, point->position, bsdf->ng,
                                                    radius2, thickness, indices, distances2);
             for (uint32_t k = 0; k < selected; k++) {
+                ppmi_vec3 contribution;
                 const bool counts =
                     add_photon(&grid->payloads[indices[k]], bsdf, albedo,
-                               kernel * (1.0f - distances2[k] / radius2), &gathered);
+                               kernel * (1.0f - distances2[k] / radius2), &gathered, &contribution);
+                if (layers && counts) {
+                    add_to_layers(layers, point, albedo, grid->order[indices[k]], contribution);
+                }
                 if (marks && counts) {
                     atomic_store_explicit(&marks[grid->order[indices[k]]], 1, memory_order_relaxed);
                 }
@@ -109,11 +135,18 @@ static ppmi_gathered gather(const ppmi_photon_grid *grid, const ppmi_albedo_tabl
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                           const ppmi_visible_point *point, float radius)
 {
-    return gather(grid, albedo, point, radius, NULL);
+    return gather(grid, albedo, point, radius, NULL, NULL);
+}
+
+ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                                      const ppmi_visible_point *point, float radius,
+                                      const ppmi_gather_layers *layers)
+{
+    return gather(grid, albedo, point, radius, NULL, layers);
 }
 
 void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                       const ppmi_visible_point *point, float radius, atomic_uchar *marks)
 {
-    gather(grid, albedo, point, radius, marks);
+    gather(grid, albedo, point, radius, marks, NULL);
 }

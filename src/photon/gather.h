@@ -6,6 +6,7 @@
 
 #include "photon/grid.h"
 #include "photon/point.h"
+#include "transport/light_layers.h"
 
 /* What photons bring to one visible point. */
 typedef struct ppmi_gathered {
@@ -20,6 +21,17 @@ typedef struct ppmi_gathered {
  * through: what brings nothing must not shrink the radius (mitsuba-renderer/mitsuba#145). */
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                           const ppmi_visible_point *point, float radius);
+
+/* The same, with layers of light: what each photon brings, times factor, goes into sink by its tag;
+ * photons is the list that the grid was built from. */
+typedef struct ppmi_gather_layers {
+    const ppmi_light_sink *sink;
+    const ppmi_photon *photons;
+    ppmi_vec3 factor;
+} ppmi_gather_layers;
+ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+                                      const ppmi_visible_point *point, float radius,
+                                      const ppmi_gather_layers *layers);
 
 /* Marks the photons that a gathering there would count, each at its place in the list that the grid
  * was built from. Any thread: marks of several are the same. */

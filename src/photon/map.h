@@ -46,4 +46,17 @@ static inline ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map,
     return ppmi_gather(&map->grids[kind], albedo, point, radius);
 }
 
+/* The same, with layers of light; layers->photons is not used. */
+static inline ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
+                                                               const ppmi_albedo_table *albedo,
+                                                               const ppmi_visible_point *point,
+                                                               float radius,
+                                                               const ppmi_gather_layers *layers)
+{
+    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
+    ppmi_gather_layers of_kind = *layers;
+    of_kind.photons = map->photons[kind].photons;
+    return ppmi_gather_with_layers(&map->grids[kind], albedo, point, radius, &of_kind);
+}
+
 #endif

@@ -7,6 +7,13 @@
 #include "base/context.h"
 #include "math/vec.h"
 
+/* What layers of light want to know of a photon (transport/light_layers.h). */
+typedef struct ppmi_photon_tag {
+    uint16_t group;      /* of its light */
+    uint8_t is_straight; /* from the light */
+    uint8_t caustic[3];  /* share of its light that is a caustic where it is gathered, of 255 */
+} ppmi_photon_tag;
+
 /* A photon at a surface that can gather, or where a medium scatters it. power is unnormalised:
  * divide by the photons emitted. In a medium it is power by extinction coefficient (power times
  * metres): the photons' density by volume times it is the fluence. */
@@ -14,8 +21,9 @@ typedef struct ppmi_photon {
     ppmi_vec3 position;
     ppmi_vec3 wi; /* where it came from, unit */
     ppmi_vec3 power;
-    ppmi_vec3 ng;  /* geometric normal there, on wi's side; 0 in a medium */
-    uint32_t path; /* of those of its walk */
+    ppmi_vec3 ng;        /* geometric normal there, on wi's side; 0 in a medium */
+    uint32_t path;       /* of those of its walk */
+    ppmi_photon_tag tag; /* where its walk tags them */
 } ppmi_photon;
 
 /* Photons at surfaces are found in disks, those in media in balls: kept apart. */

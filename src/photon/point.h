@@ -10,6 +10,8 @@ typedef struct ppmi_visible_point {
     float footprint;      /* side of the pixel's footprint there, metres */
     ppmi_vec3 throughput; /* of the eye path up to the point */
     uint32_t owner;       /* whose it is: a pixel of a tile or of the film */
+    int32_t eye_class;    /* of the eye path's first vertex, where there is a sink for layers of
+                             light: PPM_LAYER_, 0 if it is this one */
     ppmi_bsdf bsdf;       /* of a surface, or a medium's phase function */
 } ppmi_visible_point;
 

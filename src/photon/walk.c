@@ -30,9 +30,10 @@ static float shading_normal_factor(const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_vec
 }
 
 /* One bounce; false when the photon ends. Roulette keeps the power of survivors at what it was
- * before the way here: absorption on the way counts too. */
+ * before the way here: absorption on the way counts too. history may be NULL. */
 static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
-                   float power_before, ppmi_ray *ray, ppmi_vec3 *power)
+                   float power_before, ppmi_ray *ray, ppmi_vec3 *power,
+                   ppmi_photon_history *history)
 {
     const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
                 v = ppmi_walker_float(walker);
@@ -49,6 +50,10 @@ static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bs
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
     *power = vec3_scale(next, 1.0f / survival);
     *ray = ppmi_walk_leave(walker, vertex, &sample, power);
+    if (history) {
+        ppmi_photon_history_scatter(history, bsdf, walker->world->albedo, sample.wi,
+                                    sample.is_delta);
+    }
     return true;
 }
 
@@ -60,9 +65,22 @@ static ppmi_vec3 arriving_power(const ppm_scene *scene, const ppmi_vertex *verte
     return vec3_scale(power, 1.0f / ppmi_surface_opacity(scene, &vertex->surface));
 }
 
+static uint8_t of_255(float share)
+{
+    return (uint8_t)(255.0f * ppmi_clampf(share, 0.0f, 1.0f) + 0.5f);
+}
+
+static ppmi_photon_tag tag_of(const ppmi_photon_history *history, uint32_t group, bool is_in_medium)
+{
+    const ppmi_vec3 caustic = ppmi_photon_history_caustic(history, is_in_medium);
+    return (ppmi_photon_tag){.group = (uint16_t)group,
+                             .is_straight = history->is_straight,
+                             .caustic = {of_255(caustic.x), of_255(caustic.y), of_255(caustic.z)}};
+}
+
 static bool store(ppm_context *context, ppmi_photon_list *lists, uint32_t path,
                   const ppmi_vertex *vertex, const ppmi_bsdf *bsdf, const ppmi_ray *ray,
-                  ppmi_vec3 power)
+                  ppmi_vec3 power, ppmi_photon_tag tag)
 {
     const ppmi_photon photon = {
         .position = vertex->surface.position,
@@ -70,6 +88,7 @@ static bool store(ppm_context *context, ppmi_photon_list *lists, uint32_t path,
         .power = power,
         .ng = bsdf->ng,
         .path = path,
+        .tag = tag,
     };
     const int kind = vertex->medium ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
     return ppmi_photon_list_push(context, &lists[kind], &photon);
@@ -81,6 +100,11 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
 {
     ppmi_ray ray = emission.ray;
     ppmi_vec3 power = emission.power;
+    ppmi_photon_history history = ppmi_photon_history_start();
+    const uint32_t group =
+        walk->groups ? ppmi_light_groups_of(walk->groups, walk->world->lights, emission.emitter)
+                     : 0;
+    ppmi_photon_tag tag = {0};
     for (uint32_t depth = 0; depth < walk->max_depth; depth++) {
         ppmi_vertex vertex;
         if (ppmi_walk(walker, ray, PPMI_RAY_OTHER, &vertex) == PPMI_ESCAPED) return true;
@@ -89,12 +113,16 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
         if (vec3_is_black(power)) return true;
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
+        if (walk->tags_photons) tag = tag_of(&history, group, vertex.medium != NULL);
         if (depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
             !store(context, lists, path, &vertex, &bsdf, &ray,
-                   arriving_power(walk->world->scene, &vertex, power))) {
+                   arriving_power(walk->world->scene, &vertex, power), tag)) {
             return false;
         }
-        if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power)) return true;
+        if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power,
+                    walk->tags_photons ? &history : NULL)) {
+            return true;
+        }
     }
     return true;
 }

@@ -6,7 +6,7 @@
 
 #include "photon/guide.h"
 #include "photon/photon.h"
-#include "transport/world.h"
+#include "transport/light_layers.h"
 
 typedef struct ppmi_photon_walk {
     const ppmi_world *world;
@@ -16,10 +16,12 @@ typedef struct ppmi_photon_walk {
     uint32_t max_depth;
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
                              a light to light sampling, 0 keeps it */
-    const ppmi_photon_guide *guide; /* where to send photons; NULL: evenly, by power */
-    bool shutter_is_open;           /* each photon has a time within it, */
-    bool has_one_time;              /* this one for all, */
-    float time;                     /* or else its own */
+    const ppmi_photon_guide *guide;  /* where to send photons; NULL: evenly, by power */
+    bool tags_photons;               /* for layers of light, */
+    const ppmi_light_groups *groups; /* with groups of lights; or NULL */
+    bool shutter_is_open;            /* each photon has a time within it, */
+    bool has_one_time;               /* this one for all, */
+    float time;                      /* or else its own */
     uint32_t threads;
     const atomic_bool *cancel;
 } ppmi_photon_walk;

@@ -48,8 +48,8 @@ typedef struct ppmi_integrator {
     ppm_status (*pass)(const ppmi_job *job, void *state, uint64_t pass, ppm_render_stats *stats);
     /* The film's picture after passes finished passes: RGBA, row 0 on top. */
     void (*resolve)(const ppmi_job *job, const void *state, uint64_t passes, float *rgba);
-    /* One of the layers that are the integrator's own (PPM_LAYER_DIFFUSE_DIRECT .. RADIUS), number
-     * counts groups; values as in ppm_render_read_layer. */
+    /* One of the layers that are the integrator's own (PPM_LAYER_DIFFUSE_DIRECT .. RADIUS and
+     * LIGHT_VARIANCE), number counts groups or classes; values as in ppm_render_read_layer. */
     void (*read_layer)(const ppmi_job *job, const void *state, int32_t kind, uint32_t number,
                        uint64_t passes, float *values);
 } ppmi_integrator;

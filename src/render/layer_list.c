@@ -38,6 +38,7 @@ static const layer_row rows[PPM_LAYER_KINDS] = {
     [PPM_LAYER_CRYPTO_OBJECT] = {"CryptoObject", 4, {"R", "G", "B", "A"}, true},
     [PPM_LAYER_CRYPTO_MATERIAL] = {"CryptoMaterial", 4, {"R", "G", "B", "A"}, true},
     [PPM_LAYER_CRYPTO_ASSET] = {"CryptoAsset", 4, {"R", "G", "B", "A"}, true},
+    [PPM_LAYER_LIGHT_VARIANCE] = {"variance", 3, {"R", "G", "B"}, true},
 };
 
 const char *ppm_layer_kind_name(int32_t kind)
@@ -62,6 +63,7 @@ static uint32_t count_of(const ppmi_job *job, int32_t kind)
     if (!(job->options->layers & PPM_LAYER_BIT(kind))) return 0;
     if (is_crypto(kind)) return job->options->cryptomatte_ranks / 2;
     if (is_of_group(kind)) return job->groups ? job->groups->count : 0;
+    if (kind == PPM_LAYER_LIGHT_VARIANCE) return PPM_LAYER_VOLUME; /* classes count from 1 */
     return 1;
 }
 
@@ -72,6 +74,9 @@ static void name_layer(const ppmi_job *job, const ppmi_layer *layer, char *name,
         snprintf(name, size, "%s%02u", row_name, layer->number);
     } else if (is_of_group(layer->kind)) {
         snprintf(name, size, "%s.%s", row_name, job->groups->names[layer->number]);
+    } else if (layer->kind == PPM_LAYER_LIGHT_VARIANCE) {
+        snprintf(name, size, "%s.%s", row_name,
+                 rows[PPM_LAYER_DIFFUSE_DIRECT + layer->number].name);
     } else {
         snprintf(name, size, "%s", row_name);
     }

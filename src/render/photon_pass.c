@@ -2,6 +2,9 @@
 #include "render/photon_pass.h"
 
 #include <omp.h>
+#include <string.h>
+
+#include "render/layer_list.h"
 
 /* First radius, in sides of the pixel's footprint, and how often its disk or ball may double where
  * a pilot pass finds fewer photons than this: smooth light may be averaged over more than a
@@ -75,6 +78,10 @@ static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *pho
         .max_depth = job->options->max_depth,
         .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
         .guide = photons->has_guide ? photons->guide : NULL,
+        .tags_photons =
+            ppmi_layers_have(job->options, PPM_LAYER_DIFFUSE_DIRECT, PPM_LAYER_GROUP_CAUSTICS) ||
+            ppmi_layers_have(job->options, PPM_LAYER_LIGHT_VARIANCE, PPM_LAYER_LIGHT_VARIANCE),
+        .groups = job->groups,
         .shutter_is_open = ppmi_shutter_is_open(job),
         .has_one_time = job->pass_has_one_time,
         .time = photons->time,
@@ -166,6 +173,53 @@ void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
         }
         *scale *= step;
     }
+}
+
+/* ---- layers ---------------------------------------------------------------------------------- */
+
+ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_photon_pass *photons,
+                                             const ppmi_visible_point *point, float radius,
+                                             ppmi_pixel_layers *layers)
+{
+    const ppmi_dimension dimension = ppmi_dimension_of(point);
+    const double emitted = (double)photons->per_pass;
+    const float extent = ppmi_extent_of(radius, dimension);
+    const float scale = (float)(1.0 / (emitted * (double)extent));
+    const ppmi_light_sink sink = ppmi_light_film_sink(layers->film, layers->gathered, NULL);
+    const ppmi_gather_layers gather = {.sink = &sink,
+                                       .factor = vec3_scale(point->throughput, scale)};
+    ppmi_gathered gathered = ppmi_photon_map_gather_with_layers(&photons->map, job->world.albedo,
+                                                                point, radius, &gather);
+    gathered.flux = vec3_mul(gathered.flux, point->throughput);
+    layers->gathered_light = vec3_mad(layers->gathered_light, gathered.flux, scale);
+    layers->radius_sum_m += radius;
+    layers->point_count++;
+    if (dimension == PPMI_DISK) {
+        layers->surface_count++;
+        layers->pass.photons_per_area += gathered.count / extent;
+    }
+    return gathered;
+}
+
+void ppmi_pixel_layers_keep(ppmi_pixel_layers *layers, bool is_kept)
+{
+    const size_t count = layers->film->planes.count;
+    if (is_kept) {
+        for (size_t i = 0; i < count; i++)
+            layers->planes[i] = vec3_add(layers->planes[i], layers->gathered[i]);
+        layers->pass.combined = vec3_add(layers->pass.combined, layers->gathered_light);
+    }
+    memset(layers->gathered, 0, count * sizeof *layers->gathered);
+    layers->gathered_light = vec3_splat(0.0f);
+}
+
+const ppmi_light_pass *ppmi_pixel_layers_finish(ppmi_pixel_layers *layers)
+{
+    ppmi_light_pass *pass = &layers->pass;
+    pass->planes = layers->planes;
+    if (layers->point_count > 0) pass->radius_m = layers->radius_sum_m / (float)layers->point_count;
+    if (layers->surface_count > 0) pass->photons_per_area /= (float)layers->surface_count;
+    return pass;
 }
 
 ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)

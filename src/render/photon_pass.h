@@ -5,7 +5,7 @@
 #include "photon/eye.h"
 #include "photon/map.h"
 #include "photon/statistics.h"
-#include "render/integrator.h"
+#include "render/light_film.h"
 
 /* Zero it to begin with. */
 typedef struct ppmi_photon_pass {
@@ -63,12 +63,36 @@ static inline float ppmi_photon_pass_unit(const ppmi_job *job, const ppmi_photon
     return ppmi_min(point->footprint, photons->largest_radius / scale);
 }
 
-/* Photons found around a point within scale times unit; flux includes the throughput. */
+/* What a pixel's visible points gather in a pass for its layers. */
+typedef struct ppmi_pixel_layers {
+    const ppmi_light_film *film;
+    ppmi_light_pass pass; /* with what needs no photons to begin with */
+    ppmi_vec3 *planes;    /* of pass */
+    ppmi_vec3 *gathered;  /* planes of photons that are not kept yet; black to begin with */
+    ppmi_vec3 gathered_light;
+    float radius_sum_m;
+    uint32_t point_count, surface_count;
+} ppmi_pixel_layers;
+
+/* Adds what has been gathered to the pass, unless the picture leaves it out: is_kept. */
+void ppmi_pixel_layers_keep(ppmi_pixel_layers *layers, bool is_kept);
+
+/* The pass, when all is gathered. */
+const ppmi_light_pass *ppmi_pixel_layers_finish(ppmi_pixel_layers *layers);
+
+/* ppmi_photon_pass_gather with layers. */
+ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_photon_pass *photons,
+                                             const ppmi_visible_point *point, float radius,
+                                             ppmi_pixel_layers *layers);
+
+/* Photons found around a point within scale times unit; flux includes the throughput. layers may be
+ * NULL. */
 static inline ppmi_gathered ppmi_photon_pass_gather(const ppmi_job *job,
                                                     const ppmi_photon_pass *photons,
                                                     const ppmi_visible_point *point, float scale,
-                                                    float unit)
+                                                    float unit, ppmi_pixel_layers *layers)
 {
+    if (layers) return ppmi_photon_pass_gather_layers(job, photons, point, scale * unit, layers);
     ppmi_gathered gathered =
         ppmi_photon_map_gather(&photons->map, job->world.albedo, point, scale * unit);
     gathered.flux = vec3_mul(gathered.flux, point->throughput);

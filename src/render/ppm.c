@@ -24,8 +24,12 @@ typedef struct ppm_state {
     ppmi_vec3 *direct; /* per pixel: what needs no photons, of this epoch's eye paths */
     float *past;       /* 3 per pixel: sum over past epochs of radiance times photons */
     ppmi_photon_pass photons;
-    double past_emitted;  /* photons of past epochs */
-    double epoch_emitted; /* of this one */
+    ppmi_light_film layers;
+    ppmi_vec3 *direct_planes; /* as direct, of the layers: a set a pixel */
+    float *seen_through;      /* per pixel, of this epoch's eye paths; or NULL */
+    uint64_t pass;            /* that is gathered now */
+    double past_emitted;      /* photons of past epochs */
+    double epoch_emitted;     /* of this one */
     uint64_t epoch;
     bool has_points;
 } ppm_state;
@@ -51,8 +55,23 @@ static void ppm_destroy(const ppmi_job *job, void *opaque)
     ppmi_free(job->context, state->statistics);
     ppmi_free(job->context, state->direct);
     ppmi_free(job->context, state->past);
+    ppmi_free(job->context, state->direct_planes);
+    ppmi_free(job->context, state->seen_through);
+    ppmi_light_film_deinit(job, &state->layers);
     ppmi_photon_pass_deinit(job, &state->photons);
     ppmi_free(job->context, state);
+}
+
+static ppm_status create_layers(const ppmi_job *job, ppm_state *state)
+{
+    const ppm_status status = ppmi_light_film_init(job, 2, &state->layers);
+    if (status != PPM_STATUS_OK || !ppmi_light_film_is_kept(&state->layers)) return status;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    const size_t set = state->layers.planes.count * sizeof *state->direct_planes;
+    state->direct_planes = ppmi_alloc_zeroed(job->context, pixels + 1, set > 0 ? set : 1);
+    state->seen_through = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->seen_through);
+    if (state->direct_planes && state->seen_through) return PPM_STATUS_OK;
+    return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: layers");
 }
 
 static ppm_status ppm_create(const ppmi_job *job, void **out_state)
@@ -71,7 +90,8 @@ static ppm_status ppm_create(const ppmi_job *job, void **out_state)
         return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
                          pixels);
     }
-    const ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    if (status == PPM_STATUS_OK) status = create_layers(job, state);
     if (status != PPM_STATUS_OK) {
         ppm_destroy(job, state);
         return status;
@@ -82,7 +102,22 @@ static ppm_status ppm_create(const ppmi_job *job, void **out_state)
 
 /* ---- the eye pass ---------------------------------------------------------------------------- */
 
-/* The visible points of a tile. */
+static bool has_layers(const ppm_state *state)
+{
+    return ppmi_light_film_is_kept(&state->layers);
+}
+
+/* Where the layers of a pixel's eye path go. */
+static ppmi_light_sink sink_of(ppm_state *state, size_t pixel)
+{
+    const size_t count = state->layers.planes.count;
+    ppmi_vec3 *planes = state->direct_planes + pixel * count;
+    memset(planes, 0, count * sizeof *planes);
+    state->seen_through[pixel] = 0.0f;
+    return ppmi_light_film_sink(&state->layers, planes, &state->seen_through[pixel]);
+}
+
+/* The visible points of a tile, pixel by pixel. */
 static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, uint64_t *rays)
 {
     const ppmi_eye_settings settings = ppmi_eye_settings_of(job);
@@ -94,8 +129,10 @@ static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, ui
             const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, state->epoch);
             const uint32_t pixel = y * job->film.width + x;
             state->direct[pixel] = vec3_splat(0.0f);
+            ppmi_light_sink sink;
+            if (has_layers(state)) sink = sink_of(state, pixel);
             if (!ppmi_eye_path(job->context, &walker, &ray, &settings, pixel, points,
-                               &state->direct[pixel])) {
+                               &state->direct[pixel], has_layers(state) ? &sink : NULL)) {
                 return false;
             }
         }
@@ -229,22 +266,63 @@ static ppm_status begin_epoch(const ppmi_job *job, ppm_state *state, ppm_render_
 
 /* ---- photon passes --------------------------------------------------------------------------- */
 
+static void gather_point(const ppmi_job *job, ppm_state *state, const ppmi_visible_point *point,
+                         hit_statistics *statistics, ppmi_pixel_layers *layers)
+{
+    statistics->next = statistics->now;
+    const float scale = statistics->now.scale;
+    const float unit = ppmi_photon_pass_unit(job, &state->photons, point, scale);
+    const ppmi_gathered gathered =
+        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit, layers);
+    const ppmi_dimension dimension = ppmi_dimension_of(point);
+    const ppmi_vec3 tau = vec3_scale(gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
+    ppmi_statistics_update(&statistics->next, dimension, job->options->alpha, tau, gathered.count);
+    if (layers) ppmi_pixel_layers_keep(layers, vec3_is_finite(tau));
+}
+
+/* Begins a pixel's layers with what its eye path met. */
+static void start_layers(const ppm_state *state, size_t pixel, ppmi_pixel_layers *layers)
+{
+    const size_t count = state->layers.planes.count;
+    ppmi_vec3 *scratch = ppmi_light_film_clear_scratch(&state->layers);
+    *layers = (ppmi_pixel_layers){
+        .film = &state->layers,
+        .pass = {.combined = state->direct[pixel], .seen_through = state->seen_through[pixel]},
+        .planes = scratch,
+        .gathered = ppmi_light_film_set(&state->layers, scratch, 1),
+    };
+    memcpy(scratch, state->direct_planes + pixel * count, count * sizeof *scratch);
+}
+
+/* Points are in the order of their pixels. */
+static void gather_tile_layers(const ppmi_job *job, ppm_state *state, uint32_t index)
+{
+    const ppmi_tile tile = ppmi_tile_at(&job->film, index);
+    const ppmi_visible_points *points = &state->tiles[index];
+    size_t i = 0;
+    for (uint32_t y = tile.y0; y < tile.y1; y++) {
+        for (uint32_t x = tile.x0; x < tile.x1; x++) {
+            const size_t pixel = (size_t)y * job->film.width + x;
+            ppmi_pixel_layers layers;
+            start_layers(state, pixel, &layers);
+            for (; i < points->count && points->points[i].owner == pixel; i++) {
+                gather_point(job, state, &points->points[i], &state->statistics[index][i], &layers);
+            }
+            ppmi_light_film_add(&state->layers, pixel, state->pass,
+                                ppmi_pixel_layers_finish(&layers));
+        }
+    }
+}
+
 static void gather_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
 {
-    const ppmi_visible_points *points = &state->tiles[index];
-    for (size_t i = 0; i < points->count; i++) {
-        const ppmi_visible_point *point = &points->points[i];
-        hit_statistics *statistics = &state->statistics[index][i];
-        statistics->next = statistics->now;
-        const float scale = statistics->now.scale;
-        const float unit = ppmi_photon_pass_unit(job, &state->photons, point, scale);
-        const ppmi_gathered gathered =
-            ppmi_photon_pass_gather(job, &state->photons, point, scale, unit);
-        const ppmi_dimension dimension = ppmi_dimension_of(point);
-        const ppmi_vec3 tau = vec3_scale(gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
-        ppmi_statistics_update(&statistics->next, dimension, job->options->alpha, tau,
-                               gathered.count);
+    if (has_layers(state)) {
+        gather_tile_layers(job, state, index);
+        return;
     }
+    const ppmi_visible_points *points = &state->tiles[index];
+    for (size_t i = 0; i < points->count; i++)
+        gather_point(job, state, &points->points[i], &state->statistics[index][i], NULL);
 }
 
 static ppm_status gather_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
@@ -275,8 +353,10 @@ static ppm_status ppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     const float passed = (float)(state->epoch_emitted / per_pass);
     const float shrunk = powf(passed + 1.0f, 0.5f * (job->options->alpha - 1.0f));
     status = ppmi_photon_pass_run(job, &state->photons, pass, shrunk, &added);
+    state->pass = pass;
     if (status == PPM_STATUS_OK) status = gather_pass(job, state, &added);
     if (status != PPM_STATUS_OK) return status;
+    ppmi_light_film_commit(&state->layers);
     state->epoch_emitted += per_pass;
     added.photons_emitted += state->photons.per_pass;
     added.photons_stored += ppmi_photon_map_count(&state->photons.map);
@@ -284,14 +364,14 @@ static ppm_status ppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     return PPM_STATUS_OK;
 }
 
+/* Epochs are weighed by their photons, and so are layers by passes: all have as many. */
 static void ppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passes, float *rgba)
 {
-    (void)passes; /* epochs are weighed by their photons */
     const ppm_state *state = opaque;
     const size_t pixels = ppmi_film_pixel_count(&job->film);
     for (size_t i = 0; i < pixels; i++) {
         memcpy(rgba + 4 * i, state->past + 3 * i, 3 * sizeof *rgba);
-        rgba[4 * i + 3] = 1.0f;
+        rgba[4 * i + 3] = ppmi_light_film_alpha(&state->layers, i, passes);
     }
     add_epoch(job, state, rgba, 4);
     const float scale = (float)(1.0 / (state->past_emitted + state->epoch_emitted));
@@ -300,10 +380,18 @@ static void ppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passes
     }
 }
 
+static void ppm_read_layer(const ppmi_job *job, const void *opaque, int32_t kind, uint32_t number,
+                           uint64_t passes, float *values)
+{
+    const ppm_state *state = opaque;
+    ppmi_light_film_read(job, &state->layers, kind, number, passes, values);
+}
+
 const ppmi_integrator ppmi_integrator_ppm = {
     .name = "ppm",
     .create = ppm_create,
     .destroy = ppm_destroy,
     .pass = ppm_pass,
     .resolve = ppm_resolve,
+    .read_layer = ppm_read_layer,
 };

@@ -24,6 +24,7 @@ struct ppm_render {
     const ppmi_integrator *integrator;
     void *state;
     ppmi_job job;
+    ppmi_light_groups *groups;
     ppmi_layer_list layers;
     ppmi_features *features; /* NULL: none is wanted */
     ppm_render_stats stats;
@@ -175,6 +176,14 @@ static ppm_status check_options(const ppm_scene *scene, const ppm_render_options
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "radius %g must be a positive length, alpha %g within 0 .. 1",
                          (double)options->radius_m, (double)options->alpha);
+    }
+    if (options->layers >= PPM_LAYER_BIT(PPM_LAYER_KINDS) ||
+        options->light_groups < PPM_LIGHT_GROUPS_DEFAULT ||
+        options->light_groups > PPM_LIGHT_GROUPS_NAMED) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "layers 0x%llx: bits beyond kind %d, or no light groups of number %d",
+                         (unsigned long long)options->layers, PPM_LAYER_KINDS - 1,
+                         (int)options->light_groups);
     }
     const ppm_status features = ppmi_features_check(context, options);
     if (features != PPM_STATUS_OK) return features;
@@ -371,6 +380,12 @@ static ppm_status start(ppm_render *render)
     render->stats.size = sizeof render->stats;
     render->stats.threads = render->options.threads;
     render->stats.seconds_build = omp_get_wtime() - begin;
+    if (ppmi_layers_have(&render->options, PPM_LAYER_LIGHT_GROUP, PPM_LAYER_GROUP_CAUSTICS)) {
+        status = ppmi_light_groups_create(render->context, render->scene,
+                                          render->options.light_groups, &render->groups);
+        if (status != PPM_STATUS_OK) return status;
+        render->job.groups = render->groups;
+    }
     status = ppmi_layer_list_init(&render->job, &render->layers);
     if (status != PPM_STATUS_OK) return status;
     if (ppmi_features_are_wanted(&render->options)) {
@@ -439,6 +454,7 @@ void ppm_render_destroy(ppm_render *render)
     if (render->state) render->integrator->destroy(&render->job, render->state);
     ppmi_features_destroy(&render->job, render->features);
     ppmi_layer_list_deinit(render->context, &render->layers);
+    ppmi_light_groups_destroy(render->context, render->groups);
     ppmi_contacts_destroy(render->context, render->contacts);
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);

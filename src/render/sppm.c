@@ -30,6 +30,7 @@ typedef struct sppm_state {
     sppm_pixels now, next;       /* a pass reads the first and writes the second */
     ppmi_visible_points *points; /* one list a thread, for a tile each */
     ppmi_photon_pass photons;
+    ppmi_light_film layers;
     bool has_pilot;
     float memoryless_extent; /* of disks and balls in this pass by the first one's */
 } sppm_state;
@@ -46,6 +47,9 @@ typedef struct tile_eye {
     ppmi_vec3 radiance[PPMI_TILE_PIXELS];
     const ppmi_visible_point *points;
     uint32_t first_point[PPMI_TILE_PIXELS + 1];
+    const ppmi_light_film *layers; /* NULL: none are kept */
+    ppmi_vec3 *planes;             /* a set a pixel, and one for gathering */
+    float seen_through[PPMI_TILE_PIXELS];
 } tile_eye;
 
 static void pixels_deinit(const ppmi_job *job, sppm_pixels *pixels)
@@ -86,6 +90,7 @@ static void sppm_destroy(const ppmi_job *job, void *opaque)
     }
     ppmi_free(job->context, state->points);
     ppmi_photon_pass_deinit(job, &state->photons);
+    ppmi_light_film_deinit(job, &state->layers);
     ppmi_free(job->context, state);
 }
 
@@ -106,7 +111,10 @@ static ppm_status sppm_create(const ppmi_job *job, void **out_state)
         return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
                          ppmi_film_pixel_count(&job->film));
     }
-    const ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    ppm_status status = ppmi_photon_pass_init(job, &state->photons);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_light_film_init(job, PPMI_TILE_PIXELS + 1, &state->layers);
+    }
     if (status != PPM_STATUS_OK) {
         sppm_destroy(job, state);
         return status;
@@ -122,6 +130,14 @@ static bool is_memoryless(const ppmi_job *job)
 
 /* ---- eye paths ------------------------------------------------------------------------------- */
 
+/* Where the layers of a pixel's path go. */
+static ppmi_light_sink sink_of(tile_eye *eye, uint32_t slot)
+{
+    eye->seen_through[slot] = 0.0f;
+    return ppmi_light_film_sink(eye->layers, ppmi_light_film_set(eye->layers, eye->planes, slot),
+                                &eye->seen_through[slot]);
+}
+
 /* One path a pixel. */
 static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_tile tile,
                        uint64_t pass, tile_eye *eye, uint64_t *rays)
@@ -130,13 +146,16 @@ static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_ti
     ppmi_walker walker = {.world = &job->world};
     uint32_t slot = 0;
     points->count = 0;
+    if (eye->layers) eye->planes = ppmi_light_film_clear_scratch(eye->layers);
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
             const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, pass);
             eye->radiance[slot] = vec3_splat(0.0f);
             eye->first_point[slot] = (uint32_t)points->count;
+            ppmi_light_sink sink;
+            if (eye->layers) sink = sink_of(eye, slot);
             if (!ppmi_eye_path(job->context, &walker, &ray, &settings, slot, points,
-                               &eye->radiance[slot])) {
+                               &eye->radiance[slot], eye->layers ? &sink : NULL)) {
                 return false;
             }
         }
@@ -181,6 +200,7 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index, p
 {
     const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     tile_eye eye;
+    eye.layers = NULL;
     uint64_t rays = 0;
     if (!trace_tile(job, &state->points[omp_get_thread_num()], tile, PPMI_PILOT_PASS, &eye,
                     &rays)) {
@@ -238,13 +258,13 @@ static float memoryless_extent(float alpha, uint64_t pass)
 
 /* A picture by the photons of this pass alone. */
 static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
-                          const ppmi_visible_point *point, float first)
+                          const ppmi_visible_point *point, float first, ppmi_pixel_layers *layers)
 {
     const ppmi_dimension dimension = ppmi_dimension_of(point);
     const float scale = first * ppmi_root_of(state->memoryless_extent, dimension);
     const float unit = ppmi_photon_pass_unit(job, &state->photons, point, first);
     const ppmi_gathered gathered =
-        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit);
+        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit, layers);
     const double emitted = (double)state->photons.per_pass;
     const double extent = (double)ppmi_extent_of(scale * unit, dimension);
     return vec3_scale(gathered.flux, (float)(1.0 / (emitted * extent)));
@@ -253,38 +273,56 @@ static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
 /* What the photons of this pass bring to the pixel's points of one kind. */
 static void gather_points(const ppmi_job *job, const sppm_state *state, const tile_eye *eye,
                           uint32_t slot, ppmi_dimension dimension,
-                          ppmi_gather_statistics *statistics, ppmi_vec3 *direct)
+                          ppmi_gather_statistics *statistics, ppmi_vec3 *direct,
+                          ppmi_pixel_layers *layers)
 {
     ppmi_gathered sum = {0}; /* flux by footprint area or volume */
     for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++) {
         const ppmi_visible_point *point = &eye->points[i];
         if (ppmi_dimension_of(point) != dimension) continue;
         if (is_memoryless(job)) {
-            const ppmi_vec3 radiance = estimate(job, state, point, statistics->scale);
-            if (vec3_is_finite(radiance)) *direct = vec3_add(*direct, radiance);
+            const ppmi_vec3 radiance = estimate(job, state, point, statistics->scale, layers);
+            const bool is_finite = vec3_is_finite(radiance);
+            if (is_finite) *direct = vec3_add(*direct, radiance);
+            if (layers) ppmi_pixel_layers_keep(layers, is_finite);
             continue;
         }
         const float unit = ppmi_photon_pass_unit(job, &state->photons, point, statistics->scale);
         const ppmi_gathered gathered =
-            ppmi_photon_pass_gather(job, &state->photons, point, statistics->scale, unit);
+            ppmi_photon_pass_gather(job, &state->photons, point, statistics->scale, unit, layers);
         sum.flux = vec3_mad(sum.flux, gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
         sum.count += gathered.count;
     }
     ppmi_statistics_update(statistics, dimension, job->options->alpha, sum.flux, sum.count);
+    if (layers) ppmi_pixel_layers_keep(layers, vec3_is_finite(sum.flux));
 }
 
-static void update_pixel(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
-                         uint32_t slot)
+static void start_layers(const tile_eye *eye, uint32_t slot, ppmi_pixel_layers *layers)
 {
+    *layers = (ppmi_pixel_layers){
+        .film = eye->layers,
+        .pass = {.combined = eye->radiance[slot], .seen_through = eye->seen_through[slot]},
+        .planes = ppmi_light_film_set(eye->layers, eye->planes, slot),
+        .gathered = ppmi_light_film_set(eye->layers, eye->planes, PPMI_TILE_PIXELS),
+    };
+}
+
+static void update_pixel(const ppmi_job *job, sppm_state *state, uint64_t pass, size_t pixel,
+                         const tile_eye *eye, uint32_t slot)
+{
+    ppmi_pixel_layers gathered, *layers = NULL;
+    if (eye->layers) start_layers(eye, slot, layers = &gathered);
     pixel_statistics next = state->now.surfaces[pixel];
     next.direct = vec3_add(next.direct, eye->radiance[slot]);
-    gather_points(job, state, eye, slot, PPMI_DISK, &next.surface, &next.direct);
+    gather_points(job, state, eye, slot, PPMI_DISK, &next.surface, &next.direct, layers);
     if (state->now.volumes) {
         ppmi_gather_statistics volume = state->now.volumes[pixel];
-        gather_points(job, state, eye, slot, PPMI_BALL, &volume, &next.direct);
+        gather_points(job, state, eye, slot, PPMI_BALL, &volume, &next.direct, layers);
         state->next.volumes[pixel] = volume;
     }
     state->next.surfaces[pixel] = next;
+    if (!layers) return;
+    ppmi_light_film_add(&state->layers, pixel, pass, ppmi_pixel_layers_finish(layers));
 }
 
 static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, uint64_t pass,
@@ -292,6 +330,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
 {
     const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     tile_eye eye;
+    eye.layers = ppmi_light_film_is_kept(&state->layers) ? &state->layers : NULL;
     const double start = omp_get_wtime();
     if (!trace_tile(job, &state->points[omp_get_thread_num()], tile, pass, &eye, &totals->rays)) {
         totals->failed = true;
@@ -301,7 +340,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
-            update_pixel(job, state, (size_t)y * job->film.width + x, &eye, slot);
+            update_pixel(job, state, pass, (size_t)y * job->film.width + x, &eye, slot);
         }
     }
     totals->seconds_eye += middle - start;
@@ -355,6 +394,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     const sppm_pixels pixels = state->now;
     state->now = state->next;
     state->next = pixels;
+    ppmi_light_film_commit(&state->layers);
     const double threads = (double)job->options->threads;
     added.rays += totals.rays;
     added.seconds_eye += totals.seconds_eye / threads;
@@ -380,8 +420,15 @@ static void sppm_resolve(const ppmi_job *job, const void *opaque, uint64_t passe
                 radiance, ppmi_statistics_radiance(&state->now.volumes[i], PPMI_BALL, emitted));
         }
         vec3_store(rgba + 4 * i, radiance);
-        rgba[4 * i + 3] = 1.0f;
+        rgba[4 * i + 3] = ppmi_light_film_alpha(&state->layers, i, passes);
     }
+}
+
+static void sppm_read_layer(const ppmi_job *job, const void *opaque, int32_t kind, uint32_t number,
+                            uint64_t passes, float *values)
+{
+    const sppm_state *state = opaque;
+    ppmi_light_film_read(job, &state->layers, kind, number, passes, values);
 }
 
 const ppmi_integrator ppmi_integrator_sppm = {
@@ -390,4 +437,5 @@ const ppmi_integrator ppmi_integrator_sppm = {
     .destroy = sppm_destroy,
     .pass = sppm_pass,
     .resolve = sppm_resolve,
+    .read_layer = sppm_read_layer,
 };

@@ -39,6 +39,9 @@ void ppmi_scene_thaw(ppm_scene *scene)
     if (--scene->session_count > 0) return;
     scene->is_frozen = false;
     if (vec3_max_abs(scene->shift) > 0.0f) shift_all(scene, vec3_splat(0.0f));
-    if (scene->environment_is_assumed) scene->environment = (ppmi_environment){0};
+    if (scene->environment_is_assumed) {
+        ppmi_free(scene->context, scene->environment.light_group);
+        scene->environment = (ppmi_environment){0};
+    }
     scene->environment_is_assumed = false;
 }

@@ -92,6 +92,7 @@ void ppmi_instance_deinit(ppm_context *context, ppmi_instance *instance)
     ppmi_free(context, instance->motion);
     ppmi_free(context, instance->asset);
     ppmi_free(context, instance->name);
+    ppmi_free(context, instance->light_group);
 }
 
 /* ---- public calls ---------------------------------------------------------------------------- */
@@ -129,7 +130,8 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
     }
     instance->name = ppmi_string_copy(scene->context, name);
     instance->asset = ppmi_string_copy(scene->context, desc->asset ? desc->asset : name);
-    if (!instance->name || !instance->asset) {
+    if (!instance->name || !instance->asset ||
+        !ppmi_light_group_copy(scene->context, desc->light_group, &instance->light_group)) {
         ppmi_instance_deinit(scene->context, instance);
         return fail_memory(scene);
     }

@@ -153,6 +153,13 @@ static bool unit_axes(const ppmi_transform *m, ppmi_vec3 *right, ppmi_vec3 *up, 
     return vec3_length2(*back) > 0.5f && vec3_length2(*right) > 0.5f;
 }
 
+bool ppmi_light_group_copy(ppm_context *context, const char *group, char **out_group)
+{
+    const bool is_given = group && group[0] != '\0';
+    *out_group = is_given ? ppmi_string_copy(context, group) : NULL;
+    return !is_given || *out_group;
+}
+
 /* A checked desc as what rendering reads, without a place; name is taken. */
 static void fill(const ppm_light_desc *desc, char *name, ppmi_vec3 right, ppmi_vec3 up,
                  ppmi_vec3 back, ppmi_punctual *light)
@@ -193,8 +200,13 @@ static ppm_status make_light(ppm_scene *scene, const ppm_light_desc *desc, ppmi_
                          fault);
     }
     char *name_copy = ppmi_string_copy(scene->context, name);
-    if (!name_copy) return fail_memory(scene);
+    char *group;
+    if (!name_copy || !ppmi_light_group_copy(scene->context, desc->light_group, &group)) {
+        ppmi_free(scene->context, name_copy);
+        return fail_memory(scene);
+    }
     fill(desc, name_copy, right, up, back, out_light);
+    out_light->light_group = group;
     out_light->position = out_light->given_position = to_world.origin;
     return PPM_STATUS_OK;
 }
@@ -226,6 +238,7 @@ ppm_status ppm_scene_set_light(ppm_scene *scene, ppm_light_id id, const ppm_ligh
     status = make_light(scene, desc, &light);
     if (status != PPM_STATUS_OK) return status;
     ppmi_free(scene->context, scene->punctuals[id - 1].name);
+    ppmi_free(scene->context, scene->punctuals[id - 1].light_group);
     scene->punctuals[id - 1] = light;
     return PPM_STATUS_OK;
 }

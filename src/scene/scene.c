@@ -81,10 +81,12 @@ void ppm_scene_destroy(ppm_scene *scene)
     }
     for (uint32_t i = 0; i < scene->punctual_count; i++) {
         ppmi_free(context, scene->punctuals[i].name);
+        ppmi_free(context, scene->punctuals[i].light_group);
     }
     for (uint32_t i = 0; i < scene->profile_count; i++) {
         ppmi_light_profile_deinit(context, &scene->profiles[i]);
     }
+    ppmi_free(context, scene->environment.light_group);
     ppmi_free(context, scene->profiles);
     ppmi_free(context, scene->images);
     ppmi_free(context, scene->materials);
@@ -359,6 +361,12 @@ ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_des
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "environment: radiance, backdrop, image or rotation out of range");
     }
+    char *group;
+    if (!ppmi_light_group_copy(scene->context, desc->light_group, &group)) {
+        return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY,
+                         "out of memory for the environment");
+    }
+    ppmi_free(scene->context, scene->environment.light_group);
     scene->environment = (ppmi_environment){
         .is_set = true,
         .radiance = vec3_load(desc->radiance),
@@ -366,6 +374,7 @@ ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_des
         .rotation_rad = desc->rotation_rad,
         .has_backdrop = desc->has_backdrop != 0,
         .backdrop = vec3_load(desc->backdrop),
+        .light_group = group,
     };
     return PPM_STATUS_OK;
 }

@@ -161,6 +161,10 @@ typedef struct ppmi_environment {
     char *light_group; /* NULL: none is given */
 } ppmi_environment;
 
+/* A copy of a desc's light_group in *out_group: NULL where none is given (NULL or ""). False when
+ * memory is out. */
+bool ppmi_light_group_copy(ppm_context *context, const char *group, char **out_group);
+
 /* What another folder keeps with the scene from session to session. */
 typedef struct ppmi_kept {
     void *data; /* NULL: nothing */

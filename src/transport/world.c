@@ -205,6 +205,7 @@ static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_
     }
     const ppmi_vec3 light = vec3_scale(vec3_mul(vertex->transmittance, lamp->radiance), weight);
     vertex->lamplight = vec3_add(vertex->lamplight, light);
+    if (walker->lamp_witness) walker->lamp_witness->see(walker->lamp_witness, lamp->emitter, light);
 }
 
 /* Takes an eye path past the lamps before a hit (at ray->t_max; infinite: none), and the ray with
@@ -362,8 +363,8 @@ static const ppmi_interior *interior_towards(const ppmi_walker *walker, const pp
     return is_transmission ? &vertex->behind : &walker->interior;
 }
 
-ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
-                                 const ppmi_bsdf *bsdf)
+ppmi_vec3 ppmi_walk_light_sample_of(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                    const ppmi_bsdf *bsdf, ppmi_lit *out_lit)
 {
     const ppmi_vec3 black = vec3_splat(0.0f);
     if ((bsdf->lobes & ~bsdf->delta_lobes) == 0) return black;
@@ -387,6 +388,7 @@ ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
     const float scale =
         fabsf(ppmi_bsdf_cosine(bsdf, light.wi)) * ppmi_mis_weight(light.pdf, bsdf_pdf) / light.pdf;
     weight = vec3_mul(weight, vec3_scale(visibility, scale));
+    if (out_lit) *out_lit = (ppmi_lit){light, vec3_mul(f, weight)};
     return vec3_mul(vec3_mul(f, light.radiance), weight);
 }
 
@@ -448,12 +450,14 @@ ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *verte
     return vec3_scale(radiance, ppmi_mis_weight(origin->pdf, light_pdf));
 }
 
-ppmi_vec3 ppmi_walk_environment(const ppmi_walker *walker, ppmi_vec3 direction,
-                                const ppmi_origin *origin)
+ppmi_vec3 ppmi_walk_environment_weighed(const ppmi_walker *walker, ppmi_vec3 direction,
+                                        const ppmi_origin *origin, float *out_weight)
 {
     const ppmi_lights *lights = walker->world->lights;
     const ppmi_vec3 radiance = ppmi_lights_environment(lights, direction);
+    *out_weight = 1.0f;
     if (origin->is_delta || vec3_is_black(radiance)) return radiance;
     const float light_pdf = ppmi_lights_pdf_environment(lights, origin->normal, direction);
-    return vec3_scale(radiance, ppmi_mis_weight(origin->pdf, light_pdf));
+    *out_weight = ppmi_mis_weight(origin->pdf, light_pdf);
+    return vec3_scale(radiance, *out_weight);
 }

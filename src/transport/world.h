@@ -53,6 +53,7 @@ typedef struct ppmi_walker {
     float time;                       /* within the shutter, 0 .. 1 */
     const struct ppmi_origin *origin; /* of the next segments of an eye path, which then sees lights
                                          with an extent on the way; NULL: photons and probes */
+    const struct ppmi_lamp_witness *lamp_witness; /* is told of them one by one; or NULL */
     ppmi_differential differential;   /* of the path's last ray; unknown for photons */
     bool rounds_opacity;              /* alpha stops the path from one half on, not by chance */
 } ppmi_walker;
@@ -75,6 +76,7 @@ static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t
     walker->differential.is_known = false;
     walker->origin = NULL;
     walker->rounds_opacity = false;
+    walker->lamp_witness = NULL;
 }
 
 static inline uint32_t ppmi_walker_u32(ppmi_walker *walker)
@@ -116,6 +118,11 @@ typedef struct ppmi_vertex {
     bool splits_always;     /* colours part in reflection too: near total reflection */
 } ppmi_vertex;
 
+/* Whoever wants to know each lamp that adds to vertex.lamplight: light is its part. */
+typedef struct ppmi_lamp_witness {
+    void (*see)(const struct ppmi_lamp_witness *witness, uint32_t emitter, ppmi_vec3 light);
+} ppmi_lamp_witness;
+
 /* Whether the ray comes straight from the camera: it then sees through the back of single-sided
  * surfaces. Everything else meets both sides, so that light does not leak through walls. */
 typedef enum ppmi_ray_kind { PPMI_RAY_CAMERA, PPMI_RAY_OTHER } ppmi_ray_kind;
@@ -143,10 +150,22 @@ ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kin
  */
 ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior);
 
+/* Where the light of a light sample came from: radiance towards wo is light.radiance * weight. */
+typedef struct ppmi_lit {
+    ppmi_light_sample light;
+    ppmi_vec3 weight;
+} ppmi_lit;
+
 /* Radiance towards wo from one light sample at a vertex, all lobes that are not delta, weighed by
- * MIS against sampling the BSDF. */
-ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
-                                 const ppmi_bsdf *bsdf);
+ * MIS against sampling the BSDF. out_lit is set where it is not black; it may be NULL. */
+ppmi_vec3 ppmi_walk_light_sample_of(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                    const ppmi_bsdf *bsdf, ppmi_lit *out_lit);
+
+static inline ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                               const ppmi_bsdf *bsdf)
+{
+    return ppmi_walk_light_sample_of(walker, vertex, bsdf, NULL);
+}
 
 /* Makes the BSDF of a vertex for a ray that came along direction; in a medium its phase function.
  */
@@ -171,7 +190,14 @@ ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *verte
                              ppmi_vec3 direction, const ppmi_origin *origin);
 
 /* Radiance of the environment for a ray that left the scene, weighed by MIS. */
-ppmi_vec3 ppmi_walk_environment(const ppmi_walker *walker, ppmi_vec3 direction,
-                                const ppmi_origin *origin);
+ppmi_vec3 ppmi_walk_environment_weighed(const ppmi_walker *walker, ppmi_vec3 direction,
+                                        const ppmi_origin *origin, float *out_weight);
+
+static inline ppmi_vec3 ppmi_walk_environment(const ppmi_walker *walker, ppmi_vec3 direction,
+                                              const ppmi_origin *origin)
+{
+    float weight;
+    return ppmi_walk_environment_weighed(walker, direction, origin, &weight);
+}
 
 #endif

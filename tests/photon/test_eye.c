@@ -62,7 +62,8 @@ static ppmi_vec3 look(uint64_t index, const ppmi_eye_settings *settings)
     ppmi_walker walker = {.world = &world.world};
     ppmi_walker_start(&walker, ppmi_rng_start(1, PPMI_STREAM_EYE, index), 1, (uint32_t)index, 0, 2);
     ppmi_vec3 radiance = vec3_splat(0.0f);
-    assert_true(ppmi_eye_path(test.context, &walker, &slanting, settings, 7, &points, &radiance));
+    assert_true(
+        ppmi_eye_path(test.context, &walker, &slanting, settings, 7, &points, &radiance, NULL));
     return radiance;
 }
 
@@ -214,7 +215,8 @@ static void memory_that_is_out_is_reported(void **state)
     ppmi_walker_start(&walker, ppmi_rng_start(1, PPMI_STREAM_EYE, 0), 1, 0, 0, 2);
     ppmi_vec3 radiance = vec3_splat(0.0f);
     ppmi_alloc_fail_at(test.context, 1);
-    assert_false(ppmi_eye_path(test.context, &walker, &slanting, &settings, 7, &points, &radiance));
+    assert_false(
+        ppmi_eye_path(test.context, &walker, &slanting, &settings, 7, &points, &radiance, NULL));
     ppmi_alloc_fail_at(test.context, 0);
 }
 
