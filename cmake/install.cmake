@@ -1,7 +1,7 @@
 # cmake --install: programs, library, headers, pkg-config file, CMake package.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS ppm-render ppm-compare RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ppm-render ppm-compare ppm-merge RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ppm EXPORT ppm-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET ppm_v3)
     install(TARGETS ppm_v3 LIBRARY NAMELINK_SKIP

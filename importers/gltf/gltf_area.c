@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/gltf_belong.h"
 #include "gltf/gltf_light.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_rigid.h"
@@ -42,7 +43,7 @@ static ppm_status add(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_wa
 ppm_status ppmi_gltf_add_area_light(ppmi_gltf_reader *reader, int32_t node, const double world[16])
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
-    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
+    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE], group[PPMI_GLTF_PLACE];
     ppmi_gltf_place(place, "nodes[%d].extensions.EXT_lights_area.light", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_AREA_LIGHTS, from->area_light, place)) {
         return PPM_STATUS_OK;
@@ -52,11 +53,13 @@ ppm_status ppmi_gltf_add_area_light(ppmi_gltf_reader *reader, int32_t node, cons
     const double scale =
         fmax(fmax(column_length(world, 0), column_length(world, 1)), column_length(world, 2));
     const double height = light->size * scale;
-    ppm_light_desc desc = {.size = sizeof desc,
-                           .name =
-                               ppmi_gltf_choose_name(light->name, from->name, name, sizeof name),
-                           .kind = light->is_disk ? PPM_LIGHT_DISK : PPM_LIGHT_RECTANGLE,
-                           .is_hidden = ppmi_gltf_is_hidden(&extras)};
+    ppm_light_desc desc = {
+        .size = sizeof desc,
+        .name = ppmi_gltf_choose_name(light->name, from->name, name, sizeof name),
+        .kind = light->is_disk ? PPM_LIGHT_DISK : PPM_LIGHT_RECTANGLE,
+        .is_hidden = ppmi_gltf_is_hidden(&extras),
+        .light_group =
+            ppmi_gltf_light_group(reader, node, light->lamp.light_group, group, sizeof group)};
     const char *fault = ppmi_gltf_light_intensity(light->color, light->intensity, desc.intensity);
     if (!fault) fault = set_size(light->is_disk ? height : height * light->aspect, height, &desc);
     return add(reader, node, PPMI_GLTF_WAY_AREA, place, fault, world, &desc);
@@ -98,11 +101,13 @@ ppm_status ppmi_gltf_add_area_extras(ppmi_gltf_reader *reader, int32_t node, con
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
     const ppmi_gltf_area_extras *area = &from->area;
-    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
+    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE], group[PPMI_GLTF_PLACE];
     ppmi_gltf_place(place, "nodes[%d].extras.ppm_area", (int)node);
     ppm_light_desc desc = {.size = sizeof desc,
                            .name = ppmi_gltf_choose_name(from->name, "", name, sizeof name),
-                           .is_hidden = ppmi_gltf_is_hidden(&from->lamp)};
+                           .is_hidden = ppmi_gltf_is_hidden(&from->lamp),
+                           .light_group =
+                               ppmi_gltf_light_group(reader, node, "", group, sizeof group)};
     const char *fault = set_shape(area->shape, &desc);
     if (!fault) {
         fault = set_size(area->size[0] * column_length(world, 0),

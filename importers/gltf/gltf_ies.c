@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/gltf_belong.h"
 #include "gltf/gltf_light.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_rigid.h"
@@ -94,7 +95,7 @@ static void turn(float transform[16], float angle)
 ppm_status ppmi_gltf_add_ies_light(ppmi_gltf_reader *reader, int32_t node, const double world[16])
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
-    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
+    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE], group[PPMI_GLTF_PLACE];
     ppmi_gltf_place(place, "nodes[%d].extensions.EXT_lights_ies.light", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_LIGHT_PROFILES, from->profile, place)) {
         return PPM_STATUS_OK;
@@ -104,12 +105,13 @@ ppm_status ppmi_gltf_add_ies_light(ppmi_gltf_reader *reader, int32_t node, const
     if (!use->is_tried) status = load_profile(reader, from->profile, use);
     if (status != PPM_STATUS_OK) return status;
     const ppmi_gltf_light_profile *profile = &reader->document->profiles[from->profile];
-    ppm_light_desc desc = {.size = sizeof desc,
-                           .name =
-                               ppmi_gltf_choose_name(from->name, profile->name, name, sizeof name),
-                           .kind = PPM_LIGHT_POINT,
-                           .profile = use->id,
-                           .is_hidden = ppmi_gltf_is_hidden(&from->lamp)};
+    ppm_light_desc desc = {
+        .size = sizeof desc,
+        .name = ppmi_gltf_choose_name(from->name, profile->name, name, sizeof name),
+        .kind = PPM_LIGHT_POINT,
+        .profile = use->id,
+        .is_hidden = ppmi_gltf_is_hidden(&from->lamp),
+        .light_group = ppmi_gltf_light_group(reader, node, "", group, sizeof group)};
     double color[3];
     for (int i = 0; i < 3; ++i) /* by the extension */
         color[i] = fmin(fmax(from->profile_color[i], 0.0), 1.0);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "gltf/gltf_belong.h"
 #include "gltf/gltf_placement.h"
 #include "gltf/gltf_rigid.h"
 
@@ -101,7 +102,7 @@ static ppm_status add_punctual(ppmi_gltf_reader *reader, int32_t node, const dou
                                     [PPMI_GLTF_LIGHT_SPOT] = PPM_LIGHT_SPOT,
                                     [PPMI_GLTF_LIGHT_DIRECTIONAL] = PPM_LIGHT_DIRECTIONAL};
     const ppmi_gltf_node *from = &reader->document->nodes[node];
-    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE];
+    char place[PPMI_GLTF_PLACE], name[PPMI_GLTF_PLACE], group[PPMI_GLTF_PLACE];
     ppmi_gltf_place(place, "nodes[%d].extensions.KHR_lights_punctual.light", (int)node);
     if (!ppmi_gltf_accept(reader, PPMI_GLTF_LIGHTS, from->light, place)) return PPM_STATUS_OK;
     const ppmi_gltf_light *light = &reader->document->lights[from->light];
@@ -126,6 +127,8 @@ static ppm_status add_punctual(ppmi_gltf_reader *reader, int32_t node, const dou
     }
     const ppmi_gltf_lamp_extras extras = ppmi_gltf_merge_extras(&light->lamp, &from->lamp);
     apply_extras(reader, place, &extras, &desc);
+    desc.light_group =
+        ppmi_gltf_light_group(reader, node, light->lamp.light_group, group, sizeof group);
     const ppm_status status = ppmi_gltf_blend_spot(reader, place, extras.blend, &desc);
     if (status != PPM_STATUS_OK) return status;
     count_light(reader, light);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gltf/gltf_animation.h"
+#include "gltf/gltf_belong.h"
 #include "gltf/gltf_choice.h"
 #include "gltf/gltf_deform.h"
 #include "gltf/gltf_light.h"
@@ -33,10 +34,13 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
     const uint32_t steps = is_skinned ? 1 : reader->pose->node_steps[index];
     static const double identity[16] = {[0] = 1.0, [5] = 1.0, [10] = 1.0, [15] = 1.0};
     char name[PPMI_GLTF_PLACE], place[PPMI_GLTF_PLACE];
+    char asset[PPMI_GLTF_PLACE], group[PPMI_GLTF_PLACE];
     ppm_instance_desc desc = {
         .size = sizeof desc,
         .name = ppmi_gltf_printable(node_name, strlen(node_name), name, sizeof name),
-        .mesh = mesh};
+        .mesh = mesh,
+        .asset = ppmi_gltf_asset_name(reader, index, asset, sizeof asset),
+        .light_group = ppmi_gltf_light_group(reader, index, "", group, sizeof group)};
     float motion[16 * PPM_MAX_MOTION_STEPS];
     for (uint32_t i = 0; i < steps; ++i) {
         const double *world =
@@ -358,6 +362,7 @@ ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_placements_create(reader);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_animations_check_name(reader);
     if (status == PPM_STATUS_OK) status = walk_nodes(reader);
+    if (status == PPM_STATUS_OK) ppmi_gltf_belong_find(reader);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_pose_take(reader, &reader->options->pose);
     return status == PPM_STATUS_OK ? emit_nodes(reader) : status;
 }

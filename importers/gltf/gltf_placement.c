@@ -47,10 +47,11 @@ void ppmi_gltf_placements_destroy(ppmi_gltf_reader *reader)
 static ppm_status add_instance(ppmi_gltf_reader *reader, const ppm_instance_desc *desc,
                                ppm_instance_id *out_id)
 {
-    ppm_instance_desc unit = {.size = sizeof unit,
-                              .name = desc->name,
-                              .mesh = desc->mesh,
-                              .transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f}};
+    static const float identity[16] = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f};
+    ppm_instance_desc unit = *desc;
+    unit.motion_steps = 0;
+    unit.motion = NULL;
+    memcpy(unit.transform, identity, sizeof identity);
     if (reader->document->animation_count == 0) {
         return ppm_scene_add_instance(reader->scene, desc, out_id);
     }

@@ -52,6 +52,8 @@ static bool allocate(ppm_context *context, ppmi_gltf_pose *p, size_t count)
     p->node_count = count;
     p->order = ppmi_alloc(context, n, sizeof *p->order);
     p->parents = ppmi_alloc(context, n, sizeof *p->parents);
+    p->assets = ppmi_alloc(context, n, sizeof *p->assets);
+    p->groups = ppmi_alloc(context, n, sizeof *p->groups);
     p->first_weight = ppmi_alloc_zeroed(context, n, sizeof *p->first_weight);
     p->middle = ppmi_alloc_zeroed(context, n, sizeof *p->middle);
     p->is_visible = ppmi_alloc_zeroed(context, n, sizeof *p->is_visible);
@@ -59,8 +61,9 @@ static bool allocate(ppm_context *context, ppmi_gltf_pose *p, size_t count)
     p->weight_steps = ppmi_alloc_zeroed(context, n, sizeof *p->weight_steps);
     p->has_moved = ppmi_alloc_zeroed(context, n, sizeof *p->has_moved);
     p->has_changed_weights = ppmi_alloc_zeroed(context, n, sizeof *p->has_changed_weights);
-    return p->order && p->parents && p->first_weight && p->middle && p->is_visible &&
-           p->node_steps && p->weight_steps && p->has_moved && p->has_changed_weights;
+    return p->order && p->parents && p->assets && p->groups && p->first_weight && p->middle &&
+           p->is_visible && p->node_steps && p->weight_steps && p->has_moved &&
+           p->has_changed_weights;
 }
 
 ppm_status ppmi_gltf_pose_create(ppmi_gltf_reader *reader)
@@ -89,6 +92,8 @@ void ppmi_gltf_pose_destroy(ppm_context *context, ppmi_gltf_pose *p)
     if (!p) return;
     ppmi_free(context, p->order);
     ppmi_free(context, p->parents);
+    ppmi_free(context, p->assets);
+    ppmi_free(context, p->groups);
     ppmi_free(context, p->first_weight);
     ppmi_free(context, p->weights);
     ppmi_free(context, p->worlds);

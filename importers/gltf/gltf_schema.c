@@ -113,9 +113,10 @@ static const gltf_field mesh[] = {
 static const gltf_field area_extras[] = {STRING("shape"), NUMBER("radiance"), NUMBER("power_w"),
                                          NUMBERS("color", 3, 0), END};
 static const gltf_field lamp_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"),
-                                         NUMBER("ppm_blend"), END};
-static const gltf_field node_extras[] = {NUMBER("ppm_radius"), NUMBER("ppm_angle"),
-                                         NUMBER("ppm_blend"), OBJECT("ppm_area", area_extras), END};
+                                         NUMBER("ppm_blend"), STRING("ppm_light_group"), END};
+static const gltf_field node_extras[] = {NUMBER("ppm_radius"),      NUMBER("ppm_angle"),
+                                         NUMBER("ppm_blend"),       OBJECT("ppm_area", area_extras),
+                                         STRING("ppm_light_group"), END};
 static const gltf_field node_light[] = {INDEX("light", GLTF_REQUIRED), END};
 static const gltf_field node_instancing[] = {
     FIELD("attributes", GLTF_INDEX_MAP, .flags = GLTF_VITAL | GLTF_REQUIRED), END};

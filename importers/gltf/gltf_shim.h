@@ -108,10 +108,11 @@ typedef struct ppmi_gltf_mesh {
 
 /* extras of a light, and of the node that carries it; below 0: not said */
 typedef struct ppmi_gltf_lamp_extras {
-    double radius_m;  /* ppm_radius */
-    double angle_rad; /* ppm_angle */
-    int32_t visible;  /* ppm_visible */
-    double blend;     /* ppm_blend */
+    double radius_m;         /* ppm_radius */
+    double angle_rad;        /* ppm_angle */
+    int32_t visible;         /* ppm_visible */
+    double blend;            /* ppm_blend */
+    const char *light_group; /* ppm_light_group; "": not said */
 } ppmi_gltf_lamp_extras;
 
 /* extras.ppm_area of a node */

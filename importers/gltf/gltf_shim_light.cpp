@@ -10,9 +10,9 @@ namespace
 ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
 {
     const Value &visible = member(extras, "ppm_visible");
-    ppmi_gltf_lamp_extras out = {number_or(extras, "ppm_radius", -1.0),
-                                 number_or(extras, "ppm_angle", -1.0), -1,
-                                 number_or(extras, "ppm_blend", -1.0)};
+    ppmi_gltf_lamp_extras out = {
+        number_or(extras, "ppm_radius", -1.0), number_or(extras, "ppm_angle", -1.0), -1,
+        number_or(extras, "ppm_blend", -1.0), text_or_empty(extras, "ppm_light_group")};
     if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
     if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
     return out;

@@ -268,6 +268,16 @@ static void write_transform(const ppm_import_options *options, float out[16])
 
 /* ---- a node ---------------------------------------------------------------------------------- */
 
+/* What a node is a part of: its o, else the file. A new string; NULL when memory is out. */
+static char *make_asset(const ppmi_obj_reader *r, uint32_t object)
+{
+    const size_t *lengths = r->object_lengths.items;
+    if (lengths[object] == 0) return ppmi_string_copy(r->context, r->stem);
+    char *asset = ppmi_string_copy(r->context, ppmi_obj_names_get(&r->objects, object));
+    if (asset) asset[lengths[object]] = '\0';
+    return asset;
+}
+
 /* Nodes of faces without o or g have the file's name. */
 static ppm_status add_node(ppmi_obj_reader *r, uint32_t object, const ppm_primitive_desc *descs,
                            size_t count)
@@ -277,11 +287,15 @@ static ppm_status add_node(ppmi_obj_reader *r, uint32_t object, const ppm_primit
                                 .name = *name ? name : r->stem,
                                 .primitive_count = (uint32_t)count,
                                 .primitives = descs};
-    ppm_instance_desc instance = {.size = sizeof instance, .name = mesh.name};
+    char *asset = make_asset(r, object);
+    if (!asset) return ppmi_obj_out_of_memory(r);
+    ppm_instance_desc instance = {.size = sizeof instance, .name = mesh.name, .asset = asset};
     ppm_instance_id id;
     write_transform(r->options, instance.transform);
-    const ppm_status status = ppm_scene_add_mesh(r->scene, &mesh, &instance.mesh);
-    return status == PPM_STATUS_OK ? ppm_scene_add_instance(r->scene, &instance, &id) : status;
+    ppm_status status = ppm_scene_add_mesh(r->scene, &mesh, &instance.mesh);
+    if (status == PPM_STATUS_OK) status = ppm_scene_add_instance(r->scene, &instance, &id);
+    ppmi_free(r->context, asset);
+    return status;
 }
 
 static size_t same_part(const ppmi_obj_run *runs, size_t count)

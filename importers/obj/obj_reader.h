@@ -98,6 +98,7 @@ struct ppmi_obj_reader {
     int32_t kind; /* of the latest run */
     bool is_new_run;
     ppmi_obj_names objects;        /* names of nodes */
+    ppmi_obj_array object_lengths; /* size_t: of the part of each that is an object's name */
     ppmi_obj_names used_materials; /* by usemtl */
     ppmi_obj_names library_names;  /* by mtllib, as written */
 

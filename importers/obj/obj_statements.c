@@ -186,9 +186,13 @@ static bool find_object(ppmi_obj_reader *r, uint32_t *out_index)
     memcpy(name, object, object_length);
     if (slash) name[object_length] = '/';
     memcpy(name + object_length + slash, group, group_length);
+    const uint32_t known = ppmi_obj_names_count(&r->objects);
     const bool ok = ppmi_obj_names_add(r->context, &r->objects, name, length, out_index);
     ppmi_free(r->context, name);
-    return ok;
+    if (!ok || *out_index < known) return ok;
+    size_t *kept = ppmi_obj_push(r->context, &r->object_lengths, 1, sizeof *kept);
+    if (kept) *kept = object_length;
+    return kept != NULL;
 }
 
 static bool begin_run(ppmi_obj_reader *r)

@@ -12,10 +12,24 @@ extern "C" {
 
 enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
 
+/* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. */
+enum {
+    PPM_COMPRESSION_DEFAULT = 0, /* ZIPS */
+    PPM_COMPRESSION_NONE = 1,
+    PPM_COMPRESSION_RLE = 2,
+    PPM_COMPRESSION_ZIPS = 3,  /* rows one by one: quick to scrub through */
+    PPM_COMPRESSION_ZIP = 4,   /* 16 rows together: smaller */
+    PPM_COMPRESSION_PIZ = 5,   /* wavelets: smallest for noise */
+    PPM_COMPRESSION_PXR24 = 6, /* 32-bit floats lose 8 bits */
+    PPM_COMPRESSION_DWAA = 7,  /* lossy, 32 rows together */
+    PPM_COMPRESSION_DWAB = 8   /* lossy, 256 rows together */
+};
+
 /* 0 or NULL in any field means its default. */
 typedef struct ppm_output_options {
     uint32_t size;       /* sizeof(ppm_output_options) */
-    int32_t depth;       /* EXR pixels; default PPM_DEPTH_FLOAT */
+    int32_t depth;       /* EXR pixels; default PPM_DEPTH_FLOAT. Layers that half floats would
+                            spoil (ppm_layer_info.is_exact) are float with PPM_DEPTH_HALF too */
     float exposure_ev;   /* display-referred files: the picture times 2^EV before the view */
     const char *display; /* default: the configuration's */
     const char *view;    /* default: the display's */
@@ -25,6 +39,10 @@ typedef struct ppm_output_options {
     double frames_per_second; /* with has_frame, above 0 */
     const char *copyright;    /* for the metadata of every format; may be NULL or "" */
     const char *xmp;          /* for the EXR's metadata: about the scene, as JSON (ppm_asset_xmp) */
+    int32_t compression;      /* of EXR: PPM_COMPRESSION_ */
+    float compression_level;  /* of DWAA and DWAB: larger is smaller and worse; default 45 */
+    uint32_t is_multipart;    /* non-zero: the EXR has a part for each layer */
+    uint32_t tile_side;       /* pixels, 16 .. 4096; 0: the EXR has scanlines */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and
@@ -32,8 +50,10 @@ typedef struct ppm_output_options {
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
 /* Writes the picture so far of a session; the ending of path says the kind:
- *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply. With a
- *                      crop: its pixels are the data window, the whole picture the display window.
+ *   .exr               scene-linear Rec.709, all layers of the session: the picture as R, G, B, A,
+ *                      depth as Z, the others as LAYER.CHANNEL (docs/compositing.md). Exposure,
+ *                      display and view do not apply. With a crop: its pixels are the data window,
+ *                      the whole picture the display window.
  *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
  *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
  *                      ppm:camera, ppm:command; where given, the copyright as OpenEXR's "owner"

@@ -212,6 +212,10 @@ PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_sta
  * finished pass). */
 PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
 
+/* What layers of a kind are called: "combined", "caustics"; those of light groups "light" and
+ * "caustics", before the group's name. NULL for a number that is no kind. Static. */
+PPM_API const char *ppm_layer_kind_name(int32_t kind);
+
 /* A layer of the session: a picture of its own, of 1 to 4 channels. */
 typedef struct ppm_layer_info {
     uint32_t size;                /* sizeof(ppm_layer_info), set by the caller */
@@ -234,6 +238,18 @@ PPM_API ppm_status ppm_render_get_layer(const ppm_render *render, uint32_t index
  * INVALID_ARGUMENT, WRONG_STATE (no finished pass). */
 PPM_API ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float *values,
                                          size_t value_count);
+
+/* The names that the ids of a Cryptomatte layer stand for, as its manifest,
+ * {"name":"1a2b3c4d",...}: each name once, those of what is visible in the scene, in the order of
+ * their bytes; the digits are the bits of the id. kind: PPM_LAYER_CRYPTO_. *out_json is valid until
+ * ppm_render_destroy. Returns OK, INVALID_ARGUMENT (no such layer in the session). */
+PPM_API ppm_status ppm_render_cryptomatte_manifest(const ppm_render *render, int32_t kind,
+                                                   const char **out_json);
+
+/* The key of a Cryptomatte in a file's metadata, "cryptomatte/KEY/name": the first seven
+ * hexadecimal digits of the id of the layer's name without its number ("CryptoObject"), and a
+ * terminating zero. Any thread. */
+PPM_API void ppm_cryptomatte_key(const char *layer_name, char out_key[8]);
 
 #ifdef __cplusplus
 }

@@ -3,7 +3,9 @@
 
 #include <math.h>
 
+#include "api/output_facts.h"
 #include "api/output_header.h"
+#include "api/output_layers.h"
 #include "base/context.h"
 #include "color/color.h"
 #include "imageio/format.h"
@@ -37,6 +39,10 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                          "ppm_output_options.exposure_ev is not finite");
     }
+    if (format->is_scene_linear) {
+        const ppm_status status = ppmi_output_layers_check(context, options);
+        if (status != PPM_STATUS_OK) return status;
+    }
     if (options->has_frame &&
         !(options->frames_per_second > 0 && isfinite(options->frames_per_second))) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
@@ -46,8 +52,7 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
 }
 
 static ppm_status write_scene_linear(ppm_context *context, const ppm_render *render,
-                                     const char *path, const ppm_output_options *options,
-                                     ppmi_image_file *file)
+                                     const char *path, const ppm_output_options *options)
 {
     ppm_render_stats stats = {.size = sizeof stats};
     const ppm_status status = ppm_render_get_stats(render, &stats);
@@ -61,14 +66,9 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     if (options->has_frame) {
         ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
     }
-    file->attributes = header.attributes;
-    file->attribute_count = header.count;
-    file->full_width = rendered->width;
-    file->full_height = rendered->height;
-    file->x = rendered->crop[0];
-    file->y = rendered->crop[1];
-    if (options->depth == PPM_DEPTH_HALF) file->store = PPMI_STORE_HALF;
-    return ppmi_imageio_write_file(context, path, file);
+    ppmi_output_facts facts;
+    ppmi_output_header_add_facts(&header, render, &facts);
+    return ppmi_output_layers_write(context, render, path, options, &header);
 }
 
 /* Views are made for colours as they are, not for colours times alpha. Returns whether any pixel is
@@ -118,17 +118,11 @@ static ppm_status write_display(ppm_context *context, const ppm_color *color, co
     return ppmi_imageio_write_file(context, path, file);
 }
 
-ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, const char *path,
-                            const ppm_output_options *options)
+static ppm_status write_for_display(ppm_context *context, const ppm_render *render,
+                                    const ppm_color *color, const char *path,
+                                    const ppmi_output_format *format,
+                                    const ppm_output_options *options)
 {
-    static const ppm_output_options defaults = {.size = sizeof defaults};
-    if (!render || !path) return PPM_STATUS_INVALID_ARGUMENT;
-    if (!options) options = &defaults;
-    ppm_context *const context = ppmi_render_context(render);
-    const ppmi_output_format *const format = ppmi_imageio_format_of_output(path);
-    ppm_status status = check_arguments(context, color, path, format, options);
-    if (status != PPM_STATUS_OK) return status;
-
     const uint32_t *const crop = ppm_render_get_options(render)->crop;
     const uint32_t width = crop[2] - crop[0], height = crop[3] - crop[1];
     const size_t value_count = (size_t)width * height * 4;
@@ -142,12 +136,25 @@ ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, co
                             .channels = 4,
                             .pixels = rgba,
                             .store = format->usual_store};
-    status = ppm_render_read_image(render, rgba, value_count);
+    ppm_status status = ppm_render_read_image(render, rgba, value_count);
     if (status == PPM_STATUS_OK) {
-        status = format->is_scene_linear
-                     ? write_scene_linear(context, render, path, options, &file)
-                     : write_display(context, color, path, options, &file, rgba);
+        status = write_display(context, color, path, options, &file, rgba);
     }
     ppmi_free(context, rgba);
     return status;
+}
+
+ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, const char *path,
+                            const ppm_output_options *options)
+{
+    static const ppm_output_options defaults = {.size = sizeof defaults};
+    if (!render || !path) return PPM_STATUS_INVALID_ARGUMENT;
+    if (!options) options = &defaults;
+    ppm_context *const context = ppmi_render_context(render);
+    const ppmi_output_format *const format = ppmi_imageio_format_of_output(path);
+    const ppm_status status = check_arguments(context, color, path, format, options);
+    if (status != PPM_STATUS_OK) return status;
+
+    if (format->is_scene_linear) return write_scene_linear(context, render, path, options);
+    return write_for_display(context, render, color, path, format, options);
 }

@@ -18,6 +18,12 @@ static ppmi_image_attribute *add(ppmi_output_header *header, const char *name, i
     return attribute;
 }
 
+ppmi_image_attribute *ppmi_output_header_add(ppmi_output_header *header, const char *name,
+                                             int32_t type)
+{
+    return add(header, name, type);
+}
+
 static void add_text(ppmi_output_header *header, const char *name, const char *text)
 {
     if (text && *text) add(header, name, PPMI_ATTRIBUTE_STRING)->text = text;
@@ -72,23 +78,32 @@ static void write_camera_options(char *text, size_t size, const ppm_render_optio
     }
 }
 
+/* What the layers hold, where it is not the usual. */
+static void write_layer_options(char *text, size_t size, const ppm_render_options *options)
+{
+    snprintf(text, size, "%s%s%s", options->is_transparent ? " transparent=yes" : "",
+             options->normals_of_camera ? " normals=camera" : "",
+             options->follows_specular ? " specular=followed" : "");
+}
+
 /* All options that shape the picture; the number of threads does not. */
 static void write_options(char *text, size_t size, const char *integrator,
                           const ppm_render_options *options)
 {
-    char camera[256];
+    char camera[256], layers[96];
     write_camera_options(camera, sizeof camera, options);
+    write_layer_options(layers, sizeof layers, options);
     snprintf(text, size,
              "integrator=%s width=%" PRIu32 " height=%" PRIu32 " photons_per_pass=%" PRIu64
              " max_depth=%" PRIu32 " radius_m=%.9g alpha=%.9g seed=%" PRIu64
              " schedule=%s direct=%s aim=%s photons_per_epoch=%" PRIu64 " split_depth=%" PRId32
-             "%s",
+             "%s%s",
              integrator, options->width, options->height, options->photons_per_pass,
              options->max_depth, (double)options->radius_m, (double)options->alpha, options->seed,
              options->schedule == PPM_SCHEDULE_MEMORYLESS ? "memoryless" : "progressive",
              options->direct == PPM_DIRECT_PHOTONS ? "photons" : "sample",
              options->aim == PPM_AIM_EVEN ? "even" : "learnt", options->photons_per_epoch,
-             options->split_depth, camera);
+             options->split_depth, camera, layers);
 }
 
 void ppmi_output_header_init_display(ppmi_output_header *header)

@@ -5,7 +5,7 @@
 #include "imageio/imageio.h"
 #include "ppm/render.h"
 
-enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 24, PPMI_OUTPUT_COUNTS_MAX = 4 };
+enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 64, PPMI_OUTPUT_COUNTS_MAX = 4 };
 
 /* Attributes, with the texts that they point to: must not be copied or moved. */
 typedef struct ppmi_output_header {
@@ -22,6 +22,10 @@ typedef struct ppmi_output_header {
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
                              const ppm_render_stats *stats, const char *integrator,
                              const char *camera, const char *command);
+
+/* One more attribute, to be filled in. */
+ppmi_image_attribute *ppmi_output_header_add(ppmi_output_header *header, const char *name,
+                                             int32_t type);
 
 /* Adds which frame it is. frames_per_second is above 0. */
 void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,

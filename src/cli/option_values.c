@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "layer_values.h"
 #include "options.h"
 #include "ppm/ppm.h"
 #include "values.h"
@@ -225,6 +226,12 @@ int option_store_own(const option_table *table, const option_row *row, const cha
         return store_frames(table, row, text, field);
     case VALUE_LIST:
         return store_list(table, row, text, all);
+    case VALUE_LAYERS:
+    case VALUE_GROUPS:
+    case VALUE_PACKING:
+    case VALUE_TILES:
+    case VALUE_RANKS:
+        return option_store_layer_value(table, row, text, field);
     }
     return EXIT_USAGE;
 }

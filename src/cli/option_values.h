@@ -17,7 +17,12 @@ enum {
     VALUE_FRAME,               /* frame_choice: one */
     VALUE_FRAMES,              /* frame_choice: several */
     VALUE_TEXTURE_FOLDER,      /* one more of the texture_folders */
-    VALUE_LIST                 /* int32_t, from a list of names, may be missing; and the action */
+    VALUE_LIST,                /* int32_t, from a list of names, may be missing; and the action */
+    VALUE_LAYERS,              /* uint64_t: bits of the layers that a list names */
+    VALUE_GROUPS,              /* int32_t, from a list of names, may be missing */
+    VALUE_PACKING,             /* packing_choice, from a list of names */
+    VALUE_TILES,               /* uint32_t, may be missing */
+    VALUE_RANKS                /* uint64_t, even */
 };
 
 /* The table's store_own; options is a cli_options. */

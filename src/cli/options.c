@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "option_values.h"
 #include "ppm/ppm.h"
@@ -36,6 +37,21 @@ static const option_choice transmissions[] = {{"auto", PPM_TRANSMISSION_POLICY_A
                                               {NULL, 0}};
 
 static const option_choice ups[] = {{"y", PPM_UP_Y}, {"z", PPM_UP_Z}, {NULL, 0}};
+static const option_choice light_groups[] = {
+    {"given", PPM_LIGHT_GROUPS_GIVEN}, {"named", PPM_LIGHT_GROUPS_NAMED}, {NULL, 0}};
+static const option_choice normals[] = {{"world", 0}, {"camera", 1}, {NULL, 0}};
+static const option_choice depths[] = {
+    {"half", PPM_DEPTH_HALF}, {"float", PPM_DEPTH_FLOAT}, {NULL, 0}};
+static const option_choice packings[] = {{"zips", PPM_COMPRESSION_ZIPS},
+                                         {"zip", PPM_COMPRESSION_ZIP},
+                                         {"piz", PPM_COMPRESSION_PIZ},
+                                         {"rle", PPM_COMPRESSION_RLE},
+                                         {"dwaa", PPM_COMPRESSION_DWAA},
+                                         {"dwab", PPM_COMPRESSION_DWAB},
+                                         {"pxr24", PPM_COMPRESSION_PXR24},
+                                         {"none", PPM_COMPRESSION_NONE},
+                                         {NULL, 0}};
+
 static const option_choice lists[] = {{"table", LIST_TABLE}, {"json", LIST_JSON}, {NULL, 0}};
 
 #define FIELD(member) .field = offsetof(cli_options, member)
@@ -185,6 +201,34 @@ static const option_row rows[] = {
      .help = "where images and libraries of an OBJ are looked for that are\n"
              "not beside it; may be repeated"},
 
+    {"aov", 0, VALUE_LAYERS, FIELD(layers), .argument = "LIST|all", .group = "Layers of .exr",
+     .help = "layers beside the picture, as caustics,albedo,crypto; may be\n"
+             "repeated. all: all that there are"},
+    {"light-groups", 0, VALUE_GROUPS, FIELD(light_groups), .choices = light_groups,
+     .may_lack_value = true, .argument = "[=HOW]",
+     .help = "a layer for each group of lights: given by the scene (the\n"
+             "default), or named: lights without a group are one each.\n"
+             "With --aov caustics one more for the caustics of each"},
+    {"transparent", 0, OPTION_SET, FIELD(is_transparent), .set = 1,
+     .help = "alpha is 0 where the camera sees the environment"},
+    {"normals", 0, OPTION_CHOICE, FIELD(normals_of_camera), .choices = normals, .argument = "SPACE",
+     .help = "of the layer normal: world, camera (default: world)"},
+    {"follow-specular", 0, OPTION_SET, FIELD(follows_specular), .set = 1,
+     .help = "albedo and normal of what is seen in mirrors and through glass"},
+    {"cryptomatte-levels", 0, VALUE_RANKS, FIELD(cryptomatte_ranks), .least = 2, .most = 32,
+     .argument = "N", .help = "ids that a pixel can hold (default: 6)"},
+    {"depth", 0, OPTION_CHOICE, FIELD(depth), .choices = depths, .argument = "BITS",
+     .help = "half, float; ids and distances are float always (default: float)"},
+    {"exr-compression", 0, VALUE_PACKING, FIELD(packing), .choices = packings, .low = 1,
+     .high = 10000, .argument = "NAME",
+     .help = "zips, zip, piz, rle, none; with losses pxr24, dwaa[:LEVEL],\n"
+             "dwab[:LEVEL] (default: zips; LEVEL 45)"},
+    {"exr-multipart", 0, OPTION_SET, FIELD(is_multipart), .set = 1,
+     .help = "a part for each layer, in place of one with all channels"},
+    {"exr-tiles", 0, VALUE_TILES, FIELD(tile_side), .least = 16, .most = 4096,
+     .may_lack_value = true, .argument = "[=N]",
+     .help = "tiles of N x N pixels (default: 64), in place of rows"},
+
     {"exposure", 0, OPTION_REAL, FIELD(exposure_ev), .low = -64, .high = 64, .argument = "EV",
      .group = "Colour of .png .jpg .tif", .help = "stops; 1 is twice as bright (default: 0)"},
     {"display", 0, OPTION_TEXT, FIELD(display), .argument = "NAME",
@@ -266,14 +310,71 @@ static const char *fault_together(const cli_options *options)
     return NULL;
 }
 
+static bool has_exr(const cli_options *options)
+{
+    for (size_t i = 0; i < options->output_count; i++) {
+        const size_t length = strlen(options->outputs[i]);
+        if (length >= 4 && strcasecmp(options->outputs[i] + length - 4, ".exr") == 0) return true;
+    }
+    return options->output_count == 0;
+}
+
+static bool asks_for(const cli_options *options, int32_t first, int32_t last)
+{
+    for (int32_t kind = first; kind <= last; kind++) {
+        if (options->layers & PPM_LAYER_BIT(kind)) return true;
+    }
+    return false;
+}
+
+/* The same for layers. */
+static const char *fault_of_layers(const cli_options *options)
+{
+    const bool is_packed =
+        options->depth || options->packing.kind || options->is_multipart || options->tile_side > 0;
+    const bool has_crypto = asks_for(options, PPM_LAYER_CRYPTO_OBJECT, PPM_LAYER_CRYPTO_ASSET);
+    const struct {
+        bool is_idle;
+        const char *message;
+    } rules[] = {
+        {(options->layers || options->light_groups) && !has_exr(options),
+         "--aov and --light-groups are layers of an .exr, which is not among the outputs"},
+        {is_packed && !has_exr(options),
+         "--depth and --exr-... are about an .exr, which is not among the outputs"},
+        {options->normals_of_camera && !asks_for(options, PPM_LAYER_NORMAL, PPM_LAYER_NORMAL),
+         "--normals is about the layer normal, which --aov does not name"},
+        {options->follows_specular && !asks_for(options, PPM_LAYER_ALBEDO, PPM_LAYER_NORMAL),
+         "--follow-specular is about the layers albedo and normal, which --aov does not name"},
+        {options->cryptomatte_ranks > 0 && !has_crypto,
+         "--cryptomatte-levels is about Cryptomattes, which --aov does not name (crypto)"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+        if (rules[i].is_idle) return rules[i].message;
+    }
+    return NULL;
+}
+
 /* words is the command line alone: what a setup file says for the case that there are frames is no
  * mistake where there are none. */
 static int check_together(const cli_options *words, const cli_options *options)
 {
     const char *const fault = fault_together(options);
     const bool is_torn = options->epochs > 0 && options->passes > 0;
-    if (!fault || (!is_torn && !fault_together(words))) return EXIT_DONE;
-    return option_complain_of_all(&table, fault);
+    if (fault && (is_torn || fault_together(words))) return option_complain_of_all(&table, fault);
+    const char *const layers = fault_of_layers(options);
+    if (layers && fault_of_layers(words)) return option_complain_of_all(&table, layers);
+    return EXIT_DONE;
+}
+
+/* Groups come by name or by their option; caustics of each where both are wanted. */
+static void take_groups(cli_options *options)
+{
+    const uint64_t groups = PPM_LAYER_BIT(PPM_LAYER_LIGHT_GROUP);
+    const uint64_t caustics = PPM_LAYER_BIT(PPM_LAYER_CAUSTICS);
+    if (options->light_groups) options->layers |= groups;
+    if ((options->layers & groups) && (options->layers & caustics)) {
+        options->layers |= PPM_LAYER_BIT(PPM_LAYER_GROUP_CAUSTICS);
+    }
 }
 
 /* "all" is a word, whatever the file calls its cameras and animations; those have numbers, too. */
@@ -337,7 +438,8 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
 static int take_setup(int argc, char **argv, const ppm_setup *setup, const cli_options *words,
                       cli_options *options)
 {
-    *options = (cli_options){.outputs = words->outputs};
+    *options =
+        (cli_options){.outputs = words->outputs, .texture_folders = words->texture_folders};
     int status = setup_file_store(&table, setup, words, options);
     optind = 0; /* glibc: begin again */
     if (status == EXIT_DONE) status = option_table_parse(&table, argc, argv, options);
@@ -353,6 +455,7 @@ int cli_options_complete(int argc, char **argv, const ppm_setup *setup, cli_opti
         status = take_setup(argc, argv, setup, &words, options);
     }
     if (status == EXIT_DONE) status = check_together(&words, options);
+    take_groups(options);
     take_all(options);
     fill_defaults(options);
     return status;

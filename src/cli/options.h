@@ -51,6 +51,12 @@ typedef struct filter_choice {
     double width; /* pixels; 0: not said */
 } filter_choice;
 
+/* How an .exr is packed. */
+typedef struct packing_choice {
+    int32_t kind; /* PPM_COMPRESSION_; 0: not said */
+    double level; /* 0: not said */
+} packing_choice;
+
 /* The moments that are rendered; a still picture where none is given. */
 typedef struct frame_choice {
     bool is_given;
@@ -120,6 +126,17 @@ typedef struct cli_options {
     int32_t up;                   /* PPM_UP_ */
     const char **texture_folders; /* room for one per word of argv */
     size_t texture_folder_count;
+
+    uint64_t layers;      /* PPM_LAYER_BIT of each kind */
+    int32_t light_groups; /* PPM_LIGHT_GROUPS_; 0: not said */
+    uint64_t cryptomatte_ranks;
+    int32_t is_transparent;
+    int32_t normals_of_camera;
+    int32_t follows_specular;
+    int32_t depth; /* PPM_DEPTH_ */
+    packing_choice packing;
+    int32_t is_multipart;
+    uint32_t tile_side;
 
     double exposure_ev;
     const char *display;

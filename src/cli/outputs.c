@@ -107,6 +107,11 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
         .view = options->view,
         .command = outputs->command,
         .frames_per_second = options->fps,
+        .depth = options->depth,
+        .compression = options->packing.kind,
+        .compression_level = (float)options->packing.level,
+        .is_multipart = options->is_multipart != 0,
+        .tile_side = options->tile_side,
     };
     outputs->use = (pattern_use){.has_frame = options->frames.is_given,
                                  .needs_frame = options->frames.is_range,

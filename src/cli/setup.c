@@ -210,6 +210,12 @@ int setup_render_options(cli_console *console, ppm_scene *scene, const cli_optio
         .shutter_close = (float)options->shutter.close,
         .pixel_filter = options->filter.kind,
         .pixel_filter_width = (float)options->filter.width,
+        .layers = options->layers,
+        .light_groups = options->light_groups,
+        .is_transparent = options->is_transparent != 0,
+        .normals_of_camera = options->normals_of_camera != 0,
+        .follows_specular = options->follows_specular != 0,
+        .cryptomatte_ranks = (uint32_t)options->cryptomatte_ranks,
     };
     return set_camera(console, scene, options, picture, out_render_options);
 }

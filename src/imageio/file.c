@@ -76,11 +76,13 @@ ppm_status ppmi_imageio_file_read(ppm_context *context, const char *path, const 
 /* ---- replacing ------------------------------------------------------------------------------- */
 
 /* A file that is being replaced. */
-typedef struct replacement {
+struct ppmi_file_replacement {
+    char *path;      /* as it was given */
     char *target;    /* where it goes: the path with symbolic links followed */
     char *temporary; /* beside target */
     int descriptor;  /* of temporary */
-} replacement;
+};
+typedef ppmi_file_replacement replacement;
 
 static ppm_status fail_output(ppm_context *context, const char *path, const char *reason)
 {
@@ -134,25 +136,16 @@ static ppm_status replacement_begin(ppm_context *context, const char *path, repl
 {
     *file = (replacement){.descriptor = -1};
     mode_t mode = 0;
-    ppm_status status = find_target(context, path, &file->target, &mode);
+    file->path = ppmi_string_copy(context, path);
+    ppm_status status = PPM_STATUS_OK;
+    if (!file->path) {
+        status = ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+    }
+    if (status == PPM_STATUS_OK) status = find_target(context, path, &file->target, &mode);
     if (status == PPM_STATUS_OK) status = create_temporary(context, path, file);
     /* a replaced file keeps its permissions; a file system without them is no reason to fail */
     if (status == PPM_STATUS_OK && mode != 0) (void)fchmod(file->descriptor, mode);
     return status;
-}
-
-static ppm_status write_all(ppm_context *context, const char *path, int descriptor,
-                            const char *bytes, size_t byte_count)
-{
-    size_t done = 0;
-    while (done < byte_count) {
-        const ssize_t written = write(descriptor, bytes + done, byte_count - done);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return fail_output(context, path, strerror(errno));
-        if (written == 0) return fail_output(context, path, "the file takes no more data");
-        done += (size_t)written;
-    }
-    return PPM_STATUS_OK;
 }
 
 /* Flushes and closes; some file systems report a full disk only here. */
@@ -174,26 +167,74 @@ static void replacement_end(ppm_context *context, replacement *file)
     if (file->descriptor >= 0) close(file->descriptor);
     ppmi_free(context, file->temporary);
     ppmi_free(context, file->target);
+    ppmi_free(context, file->path);
+}
+
+ppm_status ppmi_imageio_file_begin(ppm_context *context, const char *path,
+                                   ppmi_file_replacement **out_replacement)
+{
+    replacement *const file = ppmi_alloc_zeroed(context, 1, sizeof *file);
+    if (!file) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+    }
+    const ppm_status status = replacement_begin(context, path, file);
+    if (status == PPM_STATUS_OK) {
+        *out_replacement = file;
+    } else {
+        replacement_end(context, file);
+        ppmi_free(context, file);
+    }
+    return status;
+}
+
+int ppmi_imageio_file_write_at(const ppmi_file_replacement *file, const void *bytes,
+                               size_t byte_count, uint64_t offset)
+{
+    const char *const all = bytes;
+    size_t done = 0;
+    while (done < byte_count) {
+        const ssize_t written = pwrite(file->descriptor, all + done, byte_count - done,
+                                       (off_t)(offset + (uint64_t)done));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        if (written == 0) return ENOSPC;
+        done += (size_t)written;
+    }
+    return 0;
+}
+
+void ppmi_imageio_file_cancel(ppm_context *context, ppmi_file_replacement *file)
+{
+    unlink(file->temporary);
+    replacement_end(context, file);
+    ppmi_free(context, file);
+}
+
+ppm_status ppmi_imageio_file_finish(ppm_context *context, ppmi_file_replacement *file)
+{
+    ppm_status status = finish_temporary(context, file->path, file);
+    if (status == PPM_STATUS_OK && rename(file->temporary, file->target) != 0) {
+        status = fail_output(context, file->path, strerror(errno));
+    }
+    if (status != PPM_STATUS_OK) {
+        ppmi_imageio_file_cancel(context, file);
+        return status;
+    }
+    replacement_end(context, file);
+    ppmi_free(context, file);
+    return PPM_STATUS_OK;
 }
 
 ppm_status ppmi_imageio_file_replace(ppm_context *context, const char *path, const void *bytes,
                                      size_t byte_count)
 {
-    replacement file;
-    ppm_status status = replacement_begin(context, path, &file);
-    if (status != PPM_STATUS_OK) goto end;
-    status = write_all(context, path, file.descriptor, bytes, byte_count);
-    if (status != PPM_STATUS_OK) goto remove;
-    status = finish_temporary(context, path, &file);
-    if (status != PPM_STATUS_OK) goto remove;
-    if (rename(file.temporary, file.target) == 0) goto end;
-    status = fail_output(context, path, strerror(errno));
-
-remove:
-    unlink(file.temporary);
-end:
-    replacement_end(context, &file);
-    return status;
+    replacement *file = NULL;
+    const ppm_status status = ppmi_imageio_file_begin(context, path, &file);
+    if (status != PPM_STATUS_OK) return status;
+    const int fault = ppmi_imageio_file_write_at(file, bytes, byte_count, 0);
+    if (fault == 0) return ppmi_imageio_file_finish(context, file);
+    ppmi_imageio_file_cancel(context, file);
+    return fail_output(context, path, strerror(fault));
 }
 
 ppm_status ppmi_imageio_file_check(ppm_context *context, const char *path)

@@ -40,7 +40,9 @@ enum {
     PPMI_ATTRIBUTE_INT,
     PPMI_ATTRIBUTE_FLOAT,
     PPMI_ATTRIBUTE_FLOATS,
-    PPMI_ATTRIBUTE_RATIONAL
+    PPMI_ATTRIBUTE_RATIONAL,
+    PPMI_ATTRIBUTE_MATRIX,
+    PPMI_ATTRIBUTE_PAIR
 };
 
 /* One header entry. */
@@ -49,7 +51,8 @@ typedef struct ppmi_image_attribute {
     int32_t type; /* PPMI_ATTRIBUTE_ */
     const char *text;
     int64_t integer;     /* written as int where it fits, else as a decimal string */
-    const float *floats; /* FLOATS: float_count values (8: chromaticities); FLOAT: the first */
+    const float *floats; /* FLOATS: float_count values (8: chromaticities); FLOAT: the first;
+                            MATRIX: 16, for row vectors, rows one after the other; PAIR: 2 */
     uint32_t float_count;
     int32_t rational[2]; /* RATIONAL: numerator and denominator */
 } ppmi_image_attribute;

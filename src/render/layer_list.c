@@ -41,6 +41,11 @@ static const layer_row rows[PPM_LAYER_KINDS] = {
     [PPM_LAYER_LIGHT_VARIANCE] = {"variance", 3, {"R", "G", "B"}, true},
 };
 
+const char *ppm_layer_kind_name(int32_t kind)
+{
+    return kind >= 0 && kind < PPM_LAYER_KINDS ? rows[kind].name : NULL;
+}
+
 static bool is_crypto(int32_t kind)
 {
     return kind >= PPM_LAYER_CRYPTO_OBJECT && kind <= PPM_LAYER_CRYPTO_ASSET;

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include "photon/eye.h"
+#include "render/features.h"
 #include "render/integrator.h"
 #include "render/layer_list.h"
 #include "scene/mipmap.h"
@@ -26,6 +27,7 @@ struct ppm_render {
     ppmi_job job;
     ppmi_light_groups *groups;
     ppmi_layer_list layers;
+    ppmi_features *features; /* NULL: none is wanted */
     ppm_render_stats stats;
     atomic_bool cancel;
 };
@@ -184,6 +186,8 @@ static ppm_status check_options(const ppm_scene *scene, const ppm_render_options
                          (unsigned long long)options->layers, PPM_LAYER_KINDS - 1,
                          (int)options->light_groups);
     }
+    const ppm_status features = ppmi_features_check(context, options);
+    if (features != PPM_STATUS_OK) return features;
     if (options->camera > scene->camera_count) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT, "camera %u of %u", options->camera,
                          scene->camera_count);
@@ -413,6 +417,10 @@ static ppm_status start(ppm_render *render)
     }
     status = ppmi_layer_list_init(&render->job, &render->layers);
     if (status != PPM_STATUS_OK) return status;
+    if (ppmi_features_are_wanted(&render->options)) {
+        status = ppmi_features_create(&render->job, &render->features);
+        if (status != PPM_STATUS_OK) return status;
+    }
     return render->integrator->create(&render->job, &render->state);
 }
 
@@ -473,6 +481,7 @@ void ppm_render_destroy(ppm_render *render)
 {
     if (!render) return;
     if (render->state) render->integrator->destroy(&render->job, render->state);
+    ppmi_features_destroy(&render->job, render->features);
     ppmi_layer_list_deinit(render->context, &render->layers);
     ppmi_light_groups_destroy(render->context, render->groups);
     ppmi_contacts_destroy(render->context, render->contacts);
@@ -496,6 +505,9 @@ ppm_status ppm_render_advance(ppm_render *render)
     const ppm_status status =
         render->integrator->pass(&render->job, render->state, render->stats.passes, &render->stats);
     if (status != PPM_STATUS_OK) return status;
+    if (render->features) {
+        ppmi_features_pass(&render->job, render->features, render->stats.passes, &render->stats);
+    }
     render->stats.passes++;
     render->stats.seconds_render += omp_get_wtime() - begin;
     return PPM_STATUS_OK;
@@ -545,6 +557,11 @@ const ppm_scene *ppmi_render_scene(const ppm_render *render)
     return render->scene;
 }
 
+const ppmi_camera_view *ppmi_render_view(const ppm_render *render)
+{
+    return &render->job.view;
+}
+
 const char *ppmi_render_integrator_name(const ppm_render *render)
 {
     return render->integrator->name;
@@ -591,7 +608,24 @@ ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float
     if (render->stats.passes == 0) {
         return ppmi_fail(render->context, PPM_STATUS_WRONG_STATE, "no pass is finished yet");
     }
+    if (ppmi_features_have(layer->kind)) {
+        ppmi_features_read(&render->job, render->features, layer, values);
+        return PPM_STATUS_OK;
+    }
     render->integrator->read_layer(&render->job, render->state, layer->kind, layer->number,
                                    render->stats.passes, values);
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_render_cryptomatte_manifest(const ppm_render *render, int32_t kind,
+                                           const char **out_json)
+{
+    if (!render || !out_json) return PPM_STATUS_INVALID_ARGUMENT;
+    const char *manifest = ppmi_features_manifest(render->features, kind);
+    if (!manifest) {
+        return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "the session has no Cryptomatte of layer kind %d", (int)kind);
+    }
+    *out_json = manifest;
     return PPM_STATUS_OK;
 }

@@ -90,6 +90,7 @@ void ppmi_instance_shift(ppmi_instance *instance, ppmi_vec3 shift)
 void ppmi_instance_deinit(ppm_context *context, ppmi_instance *instance)
 {
     ppmi_free(context, instance->motion);
+    ppmi_free(context, instance->asset);
     ppmi_free(context, instance->name);
     ppmi_free(context, instance->light_group);
 }
@@ -128,7 +129,8 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
         return PPM_STATUS_OK;
     }
     instance->name = ppmi_string_copy(scene->context, name);
-    if (!instance->name ||
+    instance->asset = ppmi_string_copy(scene->context, desc->asset ? desc->asset : name);
+    if (!instance->name || !instance->asset ||
         !ppmi_light_group_copy(scene->context, desc->light_group, &instance->light_group)) {
         ppmi_instance_deinit(scene->context, instance);
         return fail_memory(scene);

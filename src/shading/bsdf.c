@@ -715,3 +715,45 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
         vec3_scale(f, fabsf(ppmi_bsdf_cosine(bsdf, out_sample->wi)) / out_sample->pdf);
     return !vec3_is_black(out_sample->weight);
 }
+
+/* ---- albedo ---------------------------------------------------------------------------------- */
+
+static ppmi_vec3 drawn_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                              float u_lobe, float u, float v)
+{
+    ppmi_bsdf_sample sample;
+    if (!ppmi_bsdf_draw(bsdf, albedo, mask, PPMI_TRANSPORT_RADIANCE, u_lobe, u, v, &sample)) {
+        return vec3_splat(0.0f);
+    }
+    return vec3_scale(sample.weight, 1.0f / sample.eta_scale);
+}
+
+/* Schlick's albedo by channel, and the base by what the coat leaves over on average; both exact.
+ * Rough glass has the Fresnel term of its smooth surface. */
+ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
+                           float u_lobe, float u, float v)
+{
+    if (bsdf->is_layered) return drawn_albedo(bsdf, albedo, mask, u_lobe, u, v);
+    mask &= bsdf->lobes;
+    ppmi_vec3 sum = vec3_splat(0.0f);
+    ppmi_albedo_pair at_o = {0.0f, 0.0f}, average = {0.0f, 0.0f};
+    if (!is_lambert(bsdf)) {
+        at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
+        average = ppmi_albedo_average(albedo, bsdf->roughness);
+    }
+    if (mask & PPMI_LOBE_WIDE) {
+        const float left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+        sum = vec3_scale(bsdf->coat_base, left);
+        sum = vec3_mad(sum, bsdf->metal_base, 1.0f - average.a - average.b);
+    }
+    if (mask & PPMI_LOBE_SPEC) {
+        sum = vec3_mad(vec3_mad(sum, bsdf->f0, at_o.a), bsdf->f90, at_o.b);
+    }
+    if (mask & PPMI_LOBE_GLASS) {
+        float cos_t;
+        const float reflected = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+        const ppmi_vec3 glass = vec3_lerp(bsdf->tint, vec3_splat(1.0f), reflected);
+        sum = vec3_mad(sum, glass, bsdf->glass_weight);
+    }
+    return sum;
+}

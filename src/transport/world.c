@@ -61,6 +61,7 @@ static bool passes_through(ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_
     if (!material->has_alpha) return false;
     const float opacity = ppmi_surface_opacity(walker->world->scene, &vertex->surface);
     if (opacity >= 1.0f) return false;
+    if (walker->rounds_opacity) return opacity < 0.5f;
     return opacity <= 0.0f || ppmi_rng_float(&walker->rng) >= opacity;
 }
 
@@ -140,6 +141,7 @@ static void offer(ppmi_walker *walker, const ppmi_medium_span *span, const ppmi_
     choice->mass += mass;
     if (!(mass > 0.0f)) return;
     const float u_channel = ppmi_rng_float(&walker->rng), u = ppmi_walker_float(walker);
+    if (choice->count == 0) return;
     const float share = 1.0f / (float)choice->count;
     for (uint32_t i = 0; i < choice->count; i++) {
         float distance;

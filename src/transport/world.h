@@ -55,6 +55,7 @@ typedef struct ppmi_walker {
                                          with an extent on the way; NULL: photons and probes */
     const struct ppmi_lamp_witness *lamp_witness; /* is told of them one by one; or NULL */
     ppmi_differential differential;   /* of the path's last ray; unknown for photons */
+    bool rounds_opacity;              /* alpha stops the path from one half on, not by chance */
 } ppmi_walker;
 
 /* Starts a path, outside of all solids: index counts paths of the stream, stratified_index those
@@ -74,6 +75,7 @@ static inline void ppmi_walker_start(ppmi_walker *walker, ppmi_rng rng, uint64_t
     walker->time = 0.0f;
     walker->differential.is_known = false;
     walker->origin = NULL;
+    walker->rounds_opacity = false;
     walker->lamp_witness = NULL;
 }
 
@@ -136,7 +138,8 @@ ppmi_arrival ppmi_walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
 
 /* The same for a path that goes both ways at media: it always arrives, with the media's
  * transmittance as weight, and out_scattered gets count vertices drawn from the media on the way,
- * spread over it, that share the weight (medium NULL where there is none). */
+ * spread over it, that share the weight (medium NULL where there is none). With a count of 0 it
+ * just arrives. */
 enum { PPMI_MAX_SCATTERED = 8 };
 ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind,
                                  ppmi_vertex *out_vertex, ppmi_vertex *out_scattered,

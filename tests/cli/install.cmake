@@ -13,6 +13,7 @@ file(RENAME ${WORK}/first ${WORK}/moved)
 set(prefix ${WORK}/moved)
 
 run(${prefix}/bin/ppm-compare --version)
+run(${prefix}/bin/ppm-merge --version)
 run(${prefix}/bin/ppm-render --version)
 set(version "${output}")
 

@@ -37,6 +37,29 @@ static void corners_without_texture_coordinates_have_zero_beside_others(void **s
     assert_obj_near(p->uvs[0][3], 0.0f);
 }
 
+static void an_asset_is_the_object_or_else_the_file(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_status(f,
+                      obj_import(f, OBJ_TRIANGLE "f 1 2 3\ng lid\nf 1 2 3\no pot\nf 1 2 3\n"
+                                                 "g handle\nf 1 2 3\no m\xc3\xa4"
+                                                 "dchen\ng hat\nf 1 2 3\n"),
+                      PPM_STATUS_OK);
+    static const char *const expected[][2] = {{"scene", "scene"},
+                                              {"lid", "scene"},
+                                              {"pot", "pot"},
+                                              {"pot/handle", "pot"},
+                                              {"m\xc3\xa4"
+                                               "dchen/hat",
+                                               "m\xc3\xa4"
+                                               "dchen"}};
+    assert_int_equal(f->scene->instance_count, 5);
+    for (size_t i = 0; i < 5; ++i) {
+        assert_string_equal(f->scene->instances[i].name, expected[i][0]);
+        assert_string_equal(f->scene->instances[i].asset, expected[i][1]);
+    }
+}
+
 static void a_node_has_one_primitive_per_material(void **state)
 {
     obj_fixture *f = *state;
@@ -95,6 +118,7 @@ int main(void)
         TEST(a_square_shares_its_vertices),
         TEST(texture_coordinates_point_down),
         TEST(corners_without_texture_coordinates_have_zero_beside_others),
+        TEST(an_asset_is_the_object_or_else_the_file),
         TEST(a_node_has_one_primitive_per_material),
         TEST(a_concave_face_keeps_its_shape_and_winding),
         TEST(coordinates_are_metres_with_y_up),

@@ -1,0 +1,141 @@
+/* Names that compositors know (docs/compositing.md).
+ *
+ * The picture has R, G, B and A without a layer, and depth is Z: what OpenEXR reserves for them,
+ * and what every program shows first. Other channels are LAYER.CHANNEL. A dot in the name of a
+ * light group would split it: programs take what is behind the last dots for the pass and the
+ * channel.
+ *
+ * The DWA compressions treat channels called R, G and B as colours, which they round; the small
+ * letters are packed without loss (OpenEXR's ImfDwaCompressor, rules by the channel's suffix). Ids
+ * and other exact values go by small letters therefore, as Blender writes its own Cryptomattes. */
+#include "api/layer_channels.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { GROUP_NAME_MAX = 160 }; /* OpenEXR's names have at most 255 bytes */
+
+/* The name of one light group as a part of a channel's name. */
+static void clean_group_name(const char *name, char *out, size_t size)
+{
+    size_t length = strlen(name);
+    if (length >= size) {
+        length = size - 1;
+        while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
+            length--; /* not within a letter of UTF-8 */
+    }
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char letter = (unsigned char)name[i];
+        out[i] = letter == '.' || iscntrl(letter) ? '_' : name[i];
+    }
+    out[length] = '\0';
+}
+
+static bool is_of_group(int32_t kind)
+{
+    return kind == PPM_LAYER_LIGHT_GROUP || kind == PPM_LAYER_GROUP_CAUSTICS;
+}
+
+static bool is_taken(const ppmi_layer_channels *all, uint32_t count, const char *name)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(all->layer_names[i], name) == 0) return true;
+    }
+    return false;
+}
+
+/* "light.Key.001" is called "light.Key_001"; a second one of that name "light.Key_001_2". */
+static char *name_layer(ppm_context *context, const ppmi_layer_channels *all, uint32_t index)
+{
+    const ppm_layer_info *const layer = &all->layers[index];
+    const char *const dot = is_of_group(layer->kind) ? strchr(layer->name, '.') : NULL;
+    if (!dot) return ppmi_string_copy(context, layer->name);
+    char group[GROUP_NAME_MAX], name[GROUP_NAME_MAX + 40];
+    const int head = (int)(dot - layer->name);
+    clean_group_name(dot + 1, group, sizeof group);
+    snprintf(name, sizeof name, "%.*s.%s", head, layer->name, group);
+    for (uint32_t number = 2; is_taken(all, index, name); number++)
+        snprintf(name, sizeof name, "%.*s.%s_%u", head, layer->name, group, number);
+    return ppmi_string_copy(context, name);
+}
+
+static char *name_channel(ppm_context *context, const ppm_layer_info *layer, const char *layer_name,
+                          uint32_t index)
+{
+    char name[GROUP_NAME_MAX + 80], channel[16];
+    snprintf(channel, sizeof channel, "%s", layer->channel_names[index]);
+    if (layer->is_exact && strcmp(layer->channel_names[0], "R") == 0) {
+        channel[0] = (char)tolower((unsigned char)channel[0]);
+    }
+    const bool is_bare = layer->kind == PPM_LAYER_COMBINED || layer->kind == PPM_LAYER_DEPTH;
+    snprintf(name, sizeof name, "%s%s%s", is_bare ? "" : layer_name, is_bare ? "" : ".", channel);
+    return ppmi_string_copy(context, name);
+}
+
+static bool fill_layer(ppm_context *context, ppmi_layer_channels *all, uint32_t index, bool is_half)
+{
+    const ppm_layer_info *const layer = &all->layers[index];
+    all->layer_names[index] = name_layer(context, all, index);
+    if (!all->layer_names[index]) return false;
+    for (uint32_t c = 0; c < layer->channel_count; c++) {
+        const uint32_t at = all->first[index] + c;
+        all->channel_names[at] = name_channel(context, layer, all->layer_names[index], c);
+        if (!all->channel_names[at]) return false;
+        all->channels[at] = (ppmi_layered_channel){
+            .name = all->channel_names[at],
+            .store = is_half && !layer->is_exact ? PPMI_STORE_HALF : PPMI_STORE_FLOAT};
+    }
+    return true;
+}
+
+static ppm_status list_layers(ppm_context *context, const ppm_render *render,
+                              ppmi_layer_channels *all)
+{
+    const uint32_t count = ppm_render_layer_count(render);
+    all->layers = ppmi_alloc_zeroed(context, count, sizeof *all->layers);
+    all->layer_names = ppmi_alloc_zeroed(context, count, sizeof *all->layer_names);
+    all->first = ppmi_alloc_zeroed(context, count + 1, sizeof *all->first);
+    if (!all->layers || !all->layer_names || !all->first) return PPM_STATUS_OUT_OF_MEMORY;
+    all->layer_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        all->layers[i].size = sizeof all->layers[i];
+        const ppm_status status = ppm_render_get_layer(render, i, &all->layers[i]);
+        if (status != PPM_STATUS_OK) return status;
+        all->first[i + 1] = all->first[i] + all->layers[i].channel_count;
+    }
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
+                                    ppmi_layer_channels *all)
+{
+    *all = (ppmi_layer_channels){0};
+    ppm_status status = list_layers(context, render, all);
+    if (status == PPM_STATUS_OK) {
+        const uint32_t count = all->first[all->layer_count];
+        all->channel_names = ppmi_alloc_zeroed(context, count, sizeof *all->channel_names);
+        all->channels = ppmi_alloc_zeroed(context, count, sizeof *all->channels);
+        bool has_memory = all->channel_names && all->channels;
+        for (uint32_t i = 0; i < all->layer_count && has_memory; i++)
+            has_memory = fill_layer(context, all, i, is_half);
+        if (!has_memory) status = PPM_STATUS_OUT_OF_MEMORY;
+    }
+    if (status != PPM_STATUS_OUT_OF_MEMORY) return status;
+    return ppmi_fail(context, status, "out of memory: names of layers");
+}
+
+void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *all)
+{
+    const uint32_t channel_count = all->channel_names ? all->first[all->layer_count] : 0;
+    for (uint32_t i = 0; i < channel_count; i++)
+        ppmi_free(context, all->channel_names[i]);
+    for (uint32_t i = 0; i < all->layer_count; i++)
+        ppmi_free(context, all->layer_names[i]);
+    ppmi_free(context, all->channels);
+    ppmi_free(context, all->channel_names);
+    ppmi_free(context, all->first);
+    ppmi_free(context, all->layer_names);
+    ppmi_free(context, all->layers);
+    *all = (ppmi_layer_channels){0};
+}

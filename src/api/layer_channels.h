@@ -1,0 +1,27 @@
+/* What the channels of layers are called in OpenEXR files. */
+#ifndef PPMI_API_LAYER_CHANNELS_H
+#define PPMI_API_LAYER_CHANNELS_H
+
+#include <stdint.h>
+
+#include "base/context.h"
+#include "imageio/layered.h"
+#include "ppm/render.h"
+
+/* The channels of all layers of a session, in their order; layer i has those from first[i] on. */
+typedef struct ppmi_layer_channels {
+    uint32_t layer_count;
+    ppm_layer_info *layers;
+    char **layer_names; /* in the file */
+    uint32_t *first;    /* layer_count + 1 */
+    char **channel_names;
+    ppmi_layered_channel *channels;
+} ppmi_layer_channels;
+
+/* keeps_half: layers that bear it are stored as half floats. Returns OK, OUT_OF_MEMORY;
+ * *out_channels is to be freed with deinit in both cases. */
+ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
+                                    ppmi_layer_channels *out_channels);
+void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *channels);
+
+#endif
