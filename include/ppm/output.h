@@ -25,6 +25,8 @@ typedef struct ppm_output_options {
     double frames_per_second; /* with has_frame, above 0 */
     const char *copyright;    /* for the metadata of every format; may be NULL or "" */
     const char *xmp;          /* for the EXR's metadata: about the scene, as JSON (ppm_asset_xmp) */
+    const char *look;         /* display-referred files: as in ppm_color_check_look */
+    float gamma; /* display-referred files: to the power of 1/gamma after the view; default 1 */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and

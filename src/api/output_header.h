@@ -2,10 +2,11 @@
 #ifndef PPMI_API_OUTPUT_HEADER_H
 #define PPMI_API_OUTPUT_HEADER_H
 
+#include "color/color.h"
 #include "imageio/imageio.h"
 #include "ppm/render.h"
 
-enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 24, PPMI_OUTPUT_COUNTS_MAX = 4 };
+enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 36, PPMI_OUTPUT_COUNTS_MAX = 4 };
 
 /* Attributes, with the texts that they point to: must not be copied or moved. */
 typedef struct ppmi_output_header {
@@ -18,10 +19,17 @@ typedef struct ppmi_output_header {
     uint32_t text_count; /* of counts */
 } ppmi_output_header;
 
-/* camera and command may be NULL; the texts must outlive header. */
+/* camera and command may be NULL; the texts, and space, must outlive header. */
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
                              const ppm_render_stats *stats, const char *integrator,
-                             const char *camera, const char *command);
+                             const char *camera, const char *command,
+                             const ppmi_working_space *space);
+
+/* Adds what the picture is to be seen by: the configuration, names as it writes them, and the
+ * choice's numbers. look may be NULL: the view's own. All must outlive header. */
+void ppmi_output_header_add_view(ppmi_output_header *header, const char *source,
+                                 const char *display, const char *view, const char *look,
+                                 const ppmi_view_choice *choice);
 
 /* Adds which frame it is. frames_per_second is above 0. */
 void ppmi_output_header_add_frame(ppmi_output_header *header, int32_t frame,

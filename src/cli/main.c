@@ -34,9 +34,15 @@ static int open_library(cli_program *program)
         .size = sizeof desc, .log = console_log, .log_user = &program->console};
     ppm_status status = ppm_context_create(&desc, &program->context);
     if (status == PPM_STATUS_OK) {
-        status = ppm_color_create(program->context, program->options.ocio, &program->color);
+        const cli_options *const options = &program->options;
+        const ppm_color_options wanted = {.size = sizeof wanted,
+                                          .config_path = options->ocio,
+                                          .working_space = options->working_space,
+                                          .texture_space_count = options->texture_space_count,
+                                          .texture_spaces = options->texture_spaces};
+        status = ppm_color_create_with(program->context, &wanted, &program->color);
     }
-    return exit_status_of(status, EXIT_INPUT);
+    return exit_status_of(status, EXIT_USAGE); /* NOT_FOUND: a space */
 }
 
 static cli_sequence sequence_of(cli_program *program)
@@ -59,8 +65,8 @@ static int check_outputs(cli_program *program, int argc, char **argv)
     stats_init(&program->stats, options, program->seconds_begin);
     int result = outputs_init(&program->outputs, options, program->color, argc, argv);
     if (result == EXIT_DONE) {
-        const ppm_status status =
-            ppm_color_check_view(program->context, program->color, options->display, options->view);
+        const ppm_status status = ppm_color_check_look(
+            program->context, program->color, options->display, options->view, options->look);
         result = exit_status_of(status, EXIT_USAGE);
     }
     const cli_sequence sequence = sequence_of(program);

@@ -16,6 +16,7 @@ enum {
     VALUE_FILTER,              /* filter_choice, from a list of names; low and high of the width */
     VALUE_FRAME,               /* frame_choice: one */
     VALUE_FRAMES,              /* frame_choice: several */
+    VALUE_TEXTURE_SPACE,       /* one more of the texture spaces */
     VALUE_LIST                 /* int32_t, from a list of names, may be missing; and the action */
 };
 
