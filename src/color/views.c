@@ -85,7 +85,7 @@ static ppm_status choose_look(ppm_context *context, const ppm_color *color, cons
     *out_look = NULL;
     if (!look || !*look) return PPM_STATUS_OK;
     *out_look = strcasecmp(look, "none") == 0 ? "" : look;
-    if (!**out_look || strpbrk(look, ",:|+-")) {
+    if (!**out_look || *look == '+' || *look == '-' || strpbrk(look, ",:|")) {
         const char *names[NAMES_MAX] = {NULL};
         const uint32_t count = list_names(color, LIST_LOOKS, NULL, names);
         for (uint32_t i = 0; i < count; i++) { /* a name may hold such letters */
