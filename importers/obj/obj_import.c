@@ -88,10 +88,9 @@ static ppm_status check_content(ppmi_obj_reader *r)
 
 static void deinit(ppmi_obj_reader *r)
 {
-    ppmi_obj_array *const arrays[] = {&r->positions, &r->colors,  &r->uvs,
-                                      &r->normals,   &r->corners, &r->faces,
-                                      &r->image_ids, &r->runs,    &r->element,
-                                      &r->object_lengths};
+    ppmi_obj_array *const arrays[] = {&r->positions, &r->colors,        &r->uvs,       &r->normals,
+                                      &r->corners,   &r->faces,         &r->image_ids, &r->runs,
+                                      &r->element,   &r->object_lengths};
     ppmi_obj_names *const names[] = {
         &r->objects,           &r->used_materials,    &r->library_names, &r->libraries,
         &r->library_materials, &r->missing_materials, &r->ignored,       &r->images};

@@ -43,6 +43,8 @@ typedef struct ppm_output_options {
     float compression_level;  /* of DWAA and DWAB: larger is smaller and worse; default 45 */
     uint32_t is_multipart;    /* non-zero: the EXR has a part for each layer */
     uint32_t tile_side;       /* pixels, 16 .. 4096; 0: the EXR has scanlines */
+    const char *look;         /* display-referred files: as in ppm_color_check_look */
+    float gamma; /* display-referred files: to the power of 1/gamma after the view; default 1 */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and

@@ -207,9 +207,9 @@ typedef struct ppm_render_stats {
 PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats);
 
 /* Copies the picture so far: 4 * width * height floats (with a crop, of its pixels only), RGBA, row
- * 0 on top, scene-linear Rec.709, alpha premultiplied. rgba_count is the number of floats in rgba.
- * Not while another thread is in ppm_render_advance. Returns OK, INVALID_ARGUMENT, WRONG_STATE (no
- * finished pass). */
+ * 0 on top, in the working space of the scene's colour (scene-linear), alpha premultiplied.
+ * rgba_count is the number of floats in rgba. Not while another thread is in ppm_render_advance.
+ * Returns OK, INVALID_ARGUMENT, WRONG_STATE (no finished pass). */
 PPM_API ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count);
 
 /* What layers of a kind are called: "combined", "caustics"; those of light groups "light" and

@@ -14,7 +14,7 @@ struct ppm_asset {
     char *path, *scene_name, *variant, *animation; /* copies, which options points to */
     ppm_import_options options;
     char **texture_folders; /* copies too */
-    ppmi_gltf_asset *gltf; /* one of the two is set */
+    ppmi_gltf_asset *gltf;  /* one of the two is set */
     ppmi_obj_asset *obj;
     ppm_scene *scene; /* that it has been imported into; NULL before */
     bool is_imported; /* without a failure on the way */

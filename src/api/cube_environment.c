@@ -138,6 +138,7 @@ static ppm_status add_image(ppm_scene *scene, const ppm_cube_environment_desc *d
         float q[4];
         normalize(desc->rotation, q);
         fill(scene, desc, q, image.width, image.height, image.f32);
+        image.is_working = scene->working.differs;
         status = ppmi_scene_take_image(scene, &image, out_id);
     } else {
         ppmi_fail(context, status, "out of memory for the environment");

@@ -11,6 +11,7 @@
 #include "imageio/format.h"
 #include "imageio/imageio.h"
 #include "render/render.h"
+#include "scene/scene.h"
 
 ppm_status ppm_output_check(ppm_context *context, const char *path)
 {
@@ -43,6 +44,10 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
         const ppm_status status = ppmi_output_layers_check(context, options);
         if (status != PPM_STATUS_OK) return status;
     }
+    if (!(options->gamma >= 0 && options->gamma <= 100)) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "ppm_output_options.gamma is not within 0 .. 100");
+    }
     if (options->has_frame &&
         !(options->frames_per_second > 0 && isfinite(options->frames_per_second))) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
@@ -51,8 +56,28 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
     return PPM_STATUS_OK;
 }
 
+static ppmi_view_choice view_of(const ppm_output_options *options)
+{
+    return (ppmi_view_choice){.display = options->display,
+                              .view = options->view,
+                              .look = options->look,
+                              .exposure_ev = options->exposure_ev,
+                              .gamma = options->gamma};
+}
+
+/* How the picture is meant to be seen, where it can be. */
+static void add_view(const ppm_color *color, const ppmi_view_choice *choice,
+                     ppmi_output_header *header)
+{
+    ppmi_view_names names; /* unknown ones are no fault of a picture that does not use them */
+    if (!color || ppmi_color_choose_view(NULL, color, choice, &names) != PPM_STATUS_OK) return;
+    ppmi_output_header_add_view(header, ppm_color_source(color), names.display, names.view,
+                                names.look, choice);
+}
+
 static ppm_status write_scene_linear(ppm_context *context, const ppm_render *render,
-                                     const char *path, const ppm_output_options *options)
+                                     const ppm_color *color, const char *path,
+                                     const ppm_output_options *options)
 {
     ppm_render_stats stats = {.size = sizeof stats};
     const ppm_status status = ppm_render_get_stats(render, &stats);
@@ -61,7 +86,9 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     const char *const camera = ppm_scene_camera_name(ppmi_render_scene(render), rendered->camera);
     ppmi_output_header header;
     ppmi_output_header_init(&header, rendered, &stats, ppmi_render_integrator_name(render), camera,
-                            options->command);
+                            options->command, &ppmi_render_scene(render)->working);
+    const ppmi_view_choice choice = view_of(options);
+    add_view(color, &choice, &header);
     ppmi_output_header_add_origin(&header, options->copyright, options->xmp);
     if (options->has_frame) {
         ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
@@ -97,14 +124,15 @@ static void drop_alpha(float *rgba, size_t pixel_count)
     }
 }
 
-static ppm_status write_display(ppm_context *context, const ppm_color *color, const char *path,
+static ppm_status write_display(ppm_context *context, const ppm_color *color,
+                                const ppmi_working_space *space, const char *path,
                                 const ppm_output_options *options, ppmi_image_file *file,
                                 float *rgba)
 {
     const size_t pixel_count = (size_t)file->width * file->height;
     const bool is_transparent = unpremultiply(rgba, pixel_count);
-    const ppm_status status = ppmi_color_to_display(context, color, options->display, options->view,
-                                                    options->exposure_ev, rgba, pixel_count);
+    const ppmi_view_choice choice = view_of(options);
+    const ppm_status status = ppmi_color_show(context, color, &choice, space, rgba, pixel_count);
     if (status != PPM_STATUS_OK) return status;
     if (!is_transparent) {
         drop_alpha(rgba, pixel_count);
@@ -138,7 +166,8 @@ static ppm_status write_for_display(ppm_context *context, const ppm_render *rend
                             .store = format->usual_store};
     ppm_status status = ppm_render_read_image(render, rgba, value_count);
     if (status == PPM_STATUS_OK) {
-        status = write_display(context, color, path, options, &file, rgba);
+        status = write_display(context, color, &ppmi_render_scene(render)->working, path, options,
+                               &file, rgba);
     }
     ppmi_free(context, rgba);
     return status;
@@ -155,6 +184,6 @@ ppm_status ppm_render_write(const ppm_render *render, const ppm_color *color, co
     const ppm_status status = check_arguments(context, color, path, format, options);
     if (status != PPM_STATUS_OK) return status;
 
-    if (format->is_scene_linear) return write_scene_linear(context, render, path, options);
+    if (format->is_scene_linear) return write_scene_linear(context, render, color, path, options);
     return write_for_display(context, render, color, path, format, options);
 }

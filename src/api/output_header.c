@@ -115,19 +115,19 @@ void ppmi_output_header_init_display(ppmi_output_header *header)
 
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
                              const ppm_render_stats *stats, const char *integrator,
-                             const char *camera, const char *command)
+                             const char *camera, const char *command,
+                             const ppmi_working_space *space)
 {
-    /* ITU-R BT.709: red, green, blue, white (D65) */
-    static const float chromaticities[8] = {0.64f, 0.33f, 0.30f,   0.60f,
-                                            0.15f, 0.06f, 0.3127f, 0.3290f};
     static const float square[1] = {1};
     ppmi_output_header_init_display(header);
     write_options(header->options, sizeof header->options, integrator, options);
-    add_floats(header, "chromaticities", chromaticities, 8);
+    add_text(header, "ppm:workingSpace", space->name);
+    if (!space->differs) space = &ppmi_working_space_rec709;
+    add_floats(header, "chromaticities", space->chromaticities, 8);
     /* OpenImageIO keeps its own attribute for itself: 2.4 calls every OpenEXR file it reads
      * "Linear". The second name is the one that is stored (ASWF Color Interop Forum). */
-    add_text(header, "oiio:ColorSpace", "lin_rec709");
-    add_text(header, "colorInteropID", "lin_rec709_scene");
+    if (!space->differs) add_text(header, "oiio:ColorSpace", "lin_rec709");
+    add_text(header, "colorInteropID", space->interop_id);
     add_floats(header, "PixelAspectRatio", square, 1);
     add_text(header, "ppm:version", ppm_version());
     add_text(header, "ppm:options", header->options);
@@ -137,6 +137,18 @@ void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_option
     add_count(header, "ppm:seed", options->seed);
     add_text(header, "ppm:camera", camera);
     add_text(header, "ppm:command", command);
+}
+
+void ppmi_output_header_add_view(ppmi_output_header *header, const char *source,
+                                 const char *display, const char *view, const char *look,
+                                 const ppmi_view_choice *choice)
+{
+    add_text(header, "ppm:colorConfig", source);
+    add_text(header, "ppm:display", display);
+    add_text(header, "ppm:view", view);
+    if (look) add_text(header, "ppm:look", *look ? look : "none");
+    add_floats(header, "ppm:exposure", &choice->exposure_ev, 1);
+    if (choice->gamma > 0) add_floats(header, "ppm:gamma", &choice->gamma, 1);
 }
 
 /* OpenImageIO writes "Copyright" as what each format has for it: "owner" in OpenEXR, the tag in

@@ -2,6 +2,7 @@
 #ifndef PPMI_API_OUTPUT_HEADER_H
 #define PPMI_API_OUTPUT_HEADER_H
 
+#include "color/color.h"
 #include "imageio/imageio.h"
 #include "ppm/render.h"
 
@@ -18,10 +19,17 @@ typedef struct ppmi_output_header {
     uint32_t text_count; /* of counts */
 } ppmi_output_header;
 
-/* camera and command may be NULL; the texts must outlive header. */
+/* camera and command may be NULL; the texts, and space, must outlive header. */
 void ppmi_output_header_init(ppmi_output_header *header, const ppm_render_options *options,
                              const ppm_render_stats *stats, const char *integrator,
-                             const char *camera, const char *command);
+                             const char *camera, const char *command,
+                             const ppmi_working_space *space);
+
+/* Adds what the picture is to be seen by: the configuration, names as it writes them, and the
+ * choice's numbers. look may be NULL: the view's own. All must outlive header. */
+void ppmi_output_header_add_view(ppmi_output_header *header, const char *source,
+                                 const char *display, const char *view, const char *look,
+                                 const ppmi_view_choice *choice);
 
 /* One more attribute, to be filled in. */
 ppmi_image_attribute *ppmi_output_header_add(ppmi_output_header *header, const char *name,

@@ -57,37 +57,125 @@ static void clean_floats(float *values, size_t count)
     }
 }
 
+/* Wider than it was: grey becomes three channels, 8 bits floats of 0..1. OpenColorIO takes no less.
+ */
+static ppm_status widen(ppm_context *context, const char *name, ppmi_pixels *pixels)
+{
+    const uint32_t from = pixels->channels, to = from < 3 ? from + 2 : from;
+    const size_t count = (size_t)pixels->width * pixels->height;
+    if (pixels->f32 && from == to) return PPM_STATUS_OK;
+    float *const wide = ppmi_alloc(context, count * to, sizeof *wide);
+    if (!wide) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: out of memory for an image", name);
+    }
+    for (size_t i = 0; i < count * to; i++) {
+        const uint32_t channel = (uint32_t)(i % to);
+        const bool is_alpha = channel == 3;
+        const size_t at = i / to * from + (from >= 3 ? channel : is_alpha ? 1u : 0u);
+        wide[i] = pixels->u8 ? (float)pixels->u8[at] / 255.0f : pixels->f32[at];
+    }
+    ppmi_free(context, pixels->u8);
+    ppmi_free(context, pixels->f32);
+    pixels->u8 = NULL;
+    pixels->f32 = wide;
+    pixels->channels = to;
+    return PPM_STATUS_OK;
+}
+
+/* A colour that the working space does not hold has a negative channel: no surface reflects less
+ * than nothing. */
+static void clamp_gamut(ppm_context *context, const ppm_color *color, const char *name,
+                        ppmi_pixels *pixels)
+{
+    const size_t count = (size_t)pixels->width * pixels->height;
+    size_t outside = 0;
+    for (size_t i = 0; i < count; i++) {
+        float *const rgb = pixels->f32 + i * pixels->channels, least = -1e-4f;
+        outside += rgb[0] < least || rgb[1] < least || rgb[2] < least;
+        for (int c = 0; c < 3; c++)
+            rgb[c] = rgb[c] > 0.0f ? rgb[c] : 0.0f;
+    }
+    if (outside == 0) return;
+    ppmi_log(context, PPM_LOG_INFO,
+             "%s: %.3g %% of its pixels lie outside of the working space \"%s\"; what would be "
+             "negative is 0",
+             name, 100.0 * (double)outside / (double)count,
+             color ? ppm_color_working_space(color) : ppmi_working_space_rec709.name);
+}
+
+/* 8-bit sRGB stays as it is; whoever looks it up decodes it. All else becomes floats of the working
+ * space. */
+static ppm_status to_working_space(ppm_context *context, const ppm_color *color,
+                                   const ppm_image_desc *desc, const char *name,
+                                   ppmi_pixels *pixels, ppmi_image *image)
+{
+    const ppmi_color_input input = ppmi_color_choose_input(
+        color, desc->path ? desc->path : desc->name, pixels->f32 && pixels->is_linear,
+        *pixels->color_space ? pixels->color_space : NULL,
+        pixels->has_chromaticities && pixels->is_linear ? pixels->chromaticities : NULL);
+    const bool differs = ppmi_color_working_space(color)->differs;
+    const size_t count = (size_t)pixels->width * pixels->height;
+    if (input.kind == PPMI_INPUT_NUMBERS) return PPM_STATUS_OK;
+    if (pixels->u8 && input.kind == PPMI_INPUT_SRGB) {
+        image->is_srgb = true;
+        image->is_rec709 = differs && pixels->channels >= 3;
+        return PPM_STATUS_OK;
+    }
+    const bool is_kept = input.kind == PPMI_INPUT_REC709 && (!differs || pixels->channels < 3);
+    if (is_kept && pixels->f32) return PPM_STATUS_OK;
+    ppm_status status = widen(context, name, pixels);
+    if (status != PPM_STATUS_OK) return status;
+    float *const values = pixels->f32;
+    const uint32_t channels = pixels->channels;
+    image->is_working = differs;
+    if (input.kind == PPMI_INPUT_SPACE) {
+        status = ppmi_color_from_space(context, color, input.space, values, count, channels);
+    } else if (input.kind == PPMI_INPUT_PRIMARIES) {
+        if (!ppmi_color_from_primaries(color, pixels->chromaticities, values, count, channels)) {
+            ppmi_log(context, PPM_LOG_WARNING,
+                     "%s: its chromaticities are those of no colour space; taken as linear Rec.709",
+                     name);
+            ppmi_color_from_rec709(color, values, count, channels);
+        }
+    } else {
+        if (input.kind == PPMI_INPUT_SRGB) {
+            status = ppmi_color_srgb_decode(context, color, values, count, channels);
+        }
+        ppmi_color_from_rec709(color, values, count, channels);
+    }
+    if (status == PPM_STATUS_OK && (differs || input.kind >= PPMI_INPUT_PRIMARIES)) {
+        clamp_gamut(context, color, name, pixels);
+    }
+    return status;
+}
+
 /* One image decoded, not in the scene yet; on failure nothing is left. Any thread. */
-static ppm_status decode_image(ppm_context *context, const ppm_image_desc *desc,
-                               ppmi_image *out_image)
+static ppm_status decode_image(ppm_context *context, const ppm_color *color,
+                               const ppm_image_desc *desc, ppmi_image *out_image)
 {
     const char *name = desc->name ? desc->name : desc->path ? desc->path : "image";
     ppmi_pixels pixels = {0};
     ppm_status status = load_pixels(context, desc, name, &pixels);
     if (status != PPM_STATUS_OK) return status;
 
-    const bool is_color = desc->role == PPM_IMAGE_COLOR;
+    ppmi_image image = {.width = pixels.width, .height = pixels.height};
     if (pixels.f32) {
-        const size_t count = (size_t)pixels.width * pixels.height;
-        clean_floats(pixels.f32, count * pixels.channels);
-        if (is_color && !pixels.is_linear && pixels.channels >= 3) {
-            status = ppmi_color_srgb_decode(context, NULL, pixels.f32, count, pixels.channels);
-        }
+        clean_floats(pixels.f32, (size_t)pixels.width * pixels.height * pixels.channels);
     }
-    *out_image = (ppmi_image){
-        .name = ppmi_string_copy(context, name),
-        .width = pixels.width,
-        .height = pixels.height,
-        .channels = pixels.channels,
-        .u8 = pixels.u8,
-        .f32 = pixels.f32,
-        .is_srgb = is_color && pixels.u8,
-    };
-    if (status == PPM_STATUS_OK && !out_image->name) {
+    if (desc->role == PPM_IMAGE_COLOR) {
+        status = to_working_space(context, color, desc, name, &pixels, &image);
+    }
+    image.name = ppmi_string_copy(context, name);
+    image.channels = pixels.channels;
+    image.u8 = pixels.u8;
+    image.f32 = pixels.f32;
+    if (status == PPM_STATUS_OK && !image.name) {
         status = ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for an image");
     }
-    if (status != PPM_STATUS_OK) {
-        ppmi_free(context, out_image->name);
+    if (status == PPM_STATUS_OK) {
+        *out_image = image;
+    } else {
+        ppmi_free(context, image.name);
         ppmi_imageio_pixels_free(context, &pixels);
     }
     return status;
@@ -119,7 +207,7 @@ ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *desc, ppm
     status = check_desc(scene, desc);
     if (status != PPM_STATUS_OK) return status;
     ppmi_image image;
-    status = decode_image(scene->context, desc, &image);
+    status = decode_image(scene->context, scene->color, desc, &image);
     return status == PPM_STATUS_OK ? take(scene, &image, out_id) : status;
 }
 
@@ -131,15 +219,15 @@ typedef struct decoding {
     ppmi_image image;
 } decoding;
 
-static void decode_all(ppm_context *context, const ppm_image_desc *descs, uint32_t count,
-                       decoding *all, ppm_status *statuses)
+static void decode_all(ppm_context *context, const ppm_color *color, const ppm_image_desc *descs,
+                       uint32_t count, decoding *all, ppm_status *statuses)
 {
 #pragma omp parallel for schedule(dynamic, 1)
     for (uint32_t i = 0; i < count; i++) {
         statuses[i] = PPM_STATUS_OUT_OF_MEMORY;
         all[i].context = ppmi_context_fork(context);
         if (all[i].context) {
-            statuses[i] = decode_image(all[i].context, &descs[i], &all[i].image);
+            statuses[i] = decode_image(all[i].context, color, &descs[i], &all[i].image);
         }
     }
 }
@@ -157,7 +245,7 @@ ppm_status ppm_scene_add_images(ppm_scene *scene, const ppm_image_desc *descs, u
     if (!all) {
         return ppmi_fail(scene->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory for images");
     }
-    decode_all(scene->context, descs, count, all, out_statuses);
+    decode_all(scene->context, scene->color, descs, count, all, out_statuses);
     for (uint32_t i = 0; i < count; i++) {
         ppmi_context_join(all[i].context);
         out_ids[i] = 0;

@@ -1,4 +1,5 @@
 /* A clear sky as an environment image, and its sun as a directional light. */
+#include "color/color.h"
 #include "light/sky.h"
 #include "scene/scene.h"
 
@@ -46,6 +47,8 @@ static ppm_status add_sky_image(ppm_scene *scene, const ppmi_sky *sky, float gro
         const ppmi_vec3 lux = vec3_add(ppmi_sky_ground_lux(sky), ppmi_sky_sun_ground_lux(sky));
         const ppmi_vec3 ground = vec3_scale(lux, ground_albedo * PPMI_INV_PI);
         ppmi_sky_fill(sky, ground, SKY_WIDTH, SKY_HEIGHT, image.f32);
+        ppmi_color_from_rec709(scene->color, image.f32, (size_t)SKY_WIDTH * SKY_HEIGHT, 3);
+        image.is_working = scene->working.differs;
         status = ppmi_scene_take_image(scene, &image, out_id);
     } else {
         ppmi_fail(context, status, "out of memory for the sky");

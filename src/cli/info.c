@@ -48,10 +48,16 @@ int info_print_views(const ppm_color *color)
     for (uint32_t i = 0; i < display_count; i++) {
         print_display(color, ppm_color_display_name(color, i));
     }
-    printf("\nColour spaces:\n");
+    const uint32_t look_count = ppm_color_look_count(color);
+    printf("\nLooks (--look):%s\n", look_count == 0 ? " none" : "");
+    for (uint32_t i = 0; i < look_count; i++)
+        printf("  %s\n", ppm_color_look_name(color, i));
+    printf("\nColour spaces (--working-space, --texture-space):\n");
     const uint32_t space_count = ppm_color_space_count(color);
     for (uint32_t i = 0; i < space_count; i++) {
-        printf("  %s\n", ppm_color_space_name(color, i));
+        const char *const name = ppm_color_space_name(color, i);
+        const bool is_working = strcmp(name, ppm_color_working_space(color)) == 0;
+        printf("  %s%s\n", name, is_working ? " (working space)" : "");
     }
     return finish();
 }

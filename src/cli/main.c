@@ -36,6 +36,18 @@ static int open_library(cli_program *program)
     return exit_status_of(ppm_context_create(&desc, &program->context), EXIT_INPUT);
 }
 
+static int open_color(cli_program *program)
+{
+    const cli_options *const options = &program->options;
+    const ppm_color_options wanted = {.size = sizeof wanted,
+                                      .config_path = options->ocio,
+                                      .working_space = options->working_space,
+                                      .texture_space_count = options->texture_space_count,
+                                      .texture_spaces = options->texture_spaces};
+    const ppm_status status = ppm_color_create_with(program->context, &wanted, &program->color);
+    return exit_status_of(status, EXIT_USAGE); /* NOT_FOUND: a space */
+}
+
 /* The setup file and what it says of options; then nothing is missing of them. */
 static int complete_options(cli_program *program, int argc, char **argv)
 {
@@ -67,8 +79,8 @@ static int check_outputs(cli_program *program, int argc, char **argv)
     stats_init(&program->stats, options, program->seconds_begin);
     int result = outputs_init(&program->outputs, options, program->color, argc, argv);
     if (result == EXIT_DONE) {
-        const ppm_status status =
-            ppm_color_check_view(program->context, program->color, options->display, options->view);
+        const ppm_status status = ppm_color_check_look(
+            program->context, program->color, options->display, options->view, options->look);
         result = exit_status_of(status, EXIT_USAGE);
     }
     const cli_sequence sequence = sequence_of(program);
@@ -109,10 +121,7 @@ static int run(cli_program *program, int argc, char **argv)
 
     result = open_library(program);
     if (result == EXIT_DONE) result = complete_options(program, argc, argv);
-    if (result == EXIT_DONE) {
-        result = exit_status_of(
-            ppm_color_create(program->context, program->options.ocio, &program->color), EXIT_INPUT);
-    }
+    if (result == EXIT_DONE) result = open_color(program);
     if (result != EXIT_DONE) return result;
     if (program->options.action == ACTION_LIST_VIEWS) return info_print_views(program->color);
     if (program->options.action == ACTION_LIST) return list(program);

@@ -2,6 +2,7 @@
 #include "option_values.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "layer_values.h"
@@ -191,8 +192,26 @@ static int store_list(const option_table *table, const option_row *row, const ch
     return text ? option_store_choice(table, row, text, strlen(text), &options->list) : EXIT_DONE;
 }
 
-/* outputs and texture_folders have room for one entry per word of argv, so appending never
- * allocates. */
+/* A pattern may hold a =, the name of a space hardly. The text before it is cut off in a copy. */
+static int store_texture_space(const option_table *table, const option_row *row, const char *text,
+                               cli_options *options)
+{
+    const char *const equals = strrchr(text, '=');
+    if (!equals || equals == text || equals[1] == '\0') {
+        return option_complain(table, row, text, "like '*_p3.png=Display P3': PATTERN=SPACE");
+    }
+    char *const pattern = strndup(text, (size_t)(equals - text));
+    if (!pattern) {
+        fputs("ppm-render: error: out of memory\n", stderr);
+        return EXIT_RESOURCES;
+    }
+    options->texture_spaces[options->texture_space_count++] =
+        (ppm_texture_space){.pattern = pattern, .space = equals + 1};
+    return EXIT_DONE;
+}
+
+/* outputs, texture_folders and texture_spaces have room for one entry per word of argv, so
+ * appending never allocates. */
 int option_store_own(const option_table *table, const option_row *row, const char *text,
                      void *options)
 {
@@ -224,6 +243,8 @@ int option_store_own(const option_table *table, const option_row *row, const cha
     case VALUE_FRAME:
     case VALUE_FRAMES:
         return store_frames(table, row, text, field);
+    case VALUE_TEXTURE_SPACE:
+        return store_texture_space(table, row, text, all);
     case VALUE_LIST:
         return store_list(table, row, text, all);
     case VALUE_LAYERS:

@@ -51,6 +51,7 @@ static const option_choice packings[] = {{"zips", PPM_COMPRESSION_ZIPS},
                                          {"pxr24", PPM_COMPRESSION_PXR24},
                                          {"none", PPM_COMPRESSION_NONE},
                                          {NULL, 0}};
+static const option_choice bit_counts[] = {{"8", 8}, {"16", 16}, {NULL, 0}};
 
 static const option_choice lists[] = {{"table", LIST_TABLE}, {"json", LIST_JSON}, {NULL, 0}};
 
@@ -233,13 +234,30 @@ static const option_row rows[] = {
      .group = "Colour of .png .jpg .tif", .help = "stops; 1 is twice as bright (default: 0)"},
     {"display", 0, OPTION_TEXT, FIELD(display), .argument = "NAME",
      .help = "of the OpenColorIO configuration (default: its default)"},
-    {"view", 0, OPTION_TEXT, FIELD(view), .argument = "NAME",
-     .help = "of the display (default: its default)"},
-    {"ocio", 0, OPTION_TEXT, FIELD(ocio), .argument = "FILE",
+    {"view", 0, OPTION_TEXT, FIELD(view), .argument = "NAME|auto",
+     .help = "of the display (default: its default); auto: what the Blender\n"
+             "that wrote INPUT shows"},
+    {"look", 0, OPTION_TEXT, FIELD(look), .argument = "NAME",
+     .help = "of the configuration, or none (default: the view's own)"},
+    {"gamma", 0, OPTION_REAL, FIELD(gamma), .low = 0.01, .high = 100, .argument = "G",
+     .help = "to the power of 1/G, after the view (default: 1)"},
+    {"bits", 0, OPTION_CHOICE, FIELD(bits), .choices = bit_counts, .argument = "8|16",
+     .help = "a channel, in .png and .tif (default: 8 in .png, 16 in .tif)"},
+    {"no-dither", 0, OPTION_SET, FIELD(has_no_dither), .set = 1,
+     .help = "round to 8 bits without noise against banding"},
+    {"jpeg-quality", 0, OPTION_INTEGER, FIELD(jpeg_quality), .least = 1, .most = 100,
+     .argument = "N", .help = "1 .. 100 (default: 95)"},
+    {"ocio", 0, OPTION_TEXT, FIELD(ocio), .argument = "FILE", .group = "Colour management",
      .help = "an OpenColorIO configuration (default: the one that $OCIO\n"
              "names, else one that is built in)"},
+    {"working-space", 0, OPTION_TEXT, FIELD(working_space), .argument = "NAME",
+     .help = "a scene-linear space or role of it: what is rendered in, and\n"
+             "what .exr holds (default: the role scene_linear)"},
+    {"texture-space", 0, VALUE_TEXTURE_SPACE, .argument = "PATTERN=SPACE",
+     .help = "colour textures whose file name matches PATTERN (* ? [...])\n"
+             "are in SPACE; may be repeated (default: sRGB)"},
     {"list-views", 0, OPTION_SET, FIELD(action), .set = ACTION_LIST_VIEWS,
-     .help = "show displays, views and colour spaces, and end"},
+     .help = "show displays, views, looks and colour spaces, and end"},
 
     {"quiet", 'q', OPTION_SET, FIELD(verbosity), .set = VERBOSITY_QUIET, .group = "Messages",
      .help = "errors only"},
@@ -385,6 +403,10 @@ static void take_all(cli_options *options)
         options->camera = NULL;
     }
     if (options->animation && strcmp(options->animation, "all") == 0) options->animation = NULL;
+    if (options->view && strcmp(options->view, "auto") == 0) {
+        options->has_auto_view = true;
+        options->view = NULL;
+    }
 }
 
 static void fill_defaults(cli_options *options)
@@ -423,7 +445,8 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
     memset(out_options, 0, sizeof *out_options);
     out_options->outputs = calloc((size_t)argc + 1, sizeof *out_options->outputs);
     out_options->texture_folders = calloc((size_t)argc + 1, sizeof *out_options->texture_folders);
-    if (!out_options->outputs || !out_options->texture_folders) {
+    out_options->texture_spaces = calloc((size_t)argc + 1, sizeof *out_options->texture_spaces);
+    if (!out_options->outputs || !out_options->texture_folders || !out_options->texture_spaces) {
         fputs("ppm-render: error: out of memory\n", stderr);
         return EXIT_RESOURCES;
     }
@@ -434,12 +457,21 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
     return take_input(argc, argv, out_options);
 }
 
+static void free_patterns(cli_options *options)
+{
+    for (uint32_t i = 0; i < options->texture_space_count; i++)
+        free((char *)options->texture_spaces[i].pattern);
+    options->texture_space_count = 0;
+}
+
 /* The setup's options first, then the words of argv once more. */
 static int take_setup(int argc, char **argv, const ppm_setup *setup, const cli_options *words,
                       cli_options *options)
 {
-    *options =
-        (cli_options){.outputs = words->outputs, .texture_folders = words->texture_folders};
+    free_patterns(options);
+    *options = (cli_options){.outputs = words->outputs,
+                             .texture_folders = words->texture_folders,
+                             .texture_spaces = words->texture_spaces};
     int status = setup_file_store(&table, setup, words, options);
     optind = 0; /* glibc: begin again */
     if (status == EXIT_DONE) status = option_table_parse(&table, argc, argv, options);
@@ -463,7 +495,10 @@ int cli_options_complete(int argc, char **argv, const ppm_setup *setup, cli_opti
 
 void cli_options_deinit(cli_options *options)
 {
+    free_patterns(options);
+    free(options->texture_spaces);
     free(options->outputs);
+    options->texture_spaces = NULL;
     options->outputs = NULL;
     free(options->texture_folders);
     options->texture_folders = NULL;

@@ -9,6 +9,7 @@
 
 #include "exit_status.h"
 #include "frames.h"
+#include "ppm/color.h"
 #include "ppm/setup.h"
 
 enum { ACTION_RENDER = 0, ACTION_HELP, ACTION_VERSION, ACTION_LIST_VIEWS, ACTION_LIST };
@@ -140,8 +141,17 @@ typedef struct cli_options {
 
     double exposure_ev;
     const char *display;
-    const char *view;
+    const char *view; /* a name, or "auto" */
+    bool has_auto_view;
+    const char *look;
+    double gamma; /* 0: not said */
     const char *ocio;
+    const char *working_space;
+    ppm_texture_space *texture_spaces; /* texture_space_count; owned, patterns too */
+    uint32_t texture_space_count;
+    int32_t bits; /* of .png and .tif; 0: not said */
+    int32_t has_no_dither;
+    uint64_t jpeg_quality; /* 0: not said */
 } cli_options;
 
 /* Reads argv. What is wrong is said on standard error. Returns EXIT_DONE, EXIT_USAGE or

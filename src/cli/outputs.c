@@ -105,6 +105,8 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
         .exposure_ev = (float)options->exposure_ev,
         .display = options->display,
         .view = options->view,
+        .look = options->look,
+        .gamma = (float)options->gamma,
         .command = outputs->command,
         .frames_per_second = options->fps,
         .depth = options->depth,

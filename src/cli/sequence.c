@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "auto_view.h"
 #include "clock.h"
 #include "render_picture.h"
 #include "setup_file.h"
@@ -194,6 +195,10 @@ static int open_and_render(const cli_sequence *s, cli_picture *first, run_state 
 {
     int result = input_open(s->input, s->console, s->context, s->options, first);
     if (result != EXIT_DONE) return result;
+    if (s->options->has_auto_view) {
+        s->outputs->options.view = auto_view_choose(s->console, s->context, s->color, s->options,
+                                                    ppm_asset_generator(s->input->asset));
+    }
     input_say_animations(s->input, s->console, s->options);
     say_idle_shutter(s);
     result = take_cameras(s, state, first);

@@ -52,6 +52,7 @@ static const char *refusal(const char *name)
         {"setup", files},
         {"ocio", files},
         {"texture-path", files},
+        {"texture-space", files},
         {"list", talk},
         {"list-views", talk},
         {"quiet", talk},

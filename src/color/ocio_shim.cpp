@@ -1,6 +1,7 @@
 /* The only file that knows OpenColorIO. */
 #include "color/ocio_shim.h"
 
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
@@ -183,6 +184,49 @@ const char *ppmi_ocio_find_space(const ppmi_ocio_config *config, const char *nam
     });
 }
 
+uint32_t ppmi_ocio_look_count(const ppmi_ocio_config *config) noexcept
+{
+    return answered(0u, [&] { return (uint32_t)config->config->getNumLooks(); });
+}
+
+const char *ppmi_ocio_look_name(const ppmi_ocio_config *config, uint32_t index) noexcept
+{
+    const char *const none = nullptr;
+    return answered(none,
+                    [&] { return name_or_null(config->config->getLookNameByIndex((int)index)); });
+}
+
+bool ppmi_ocio_space_is_data(const ppmi_ocio_config *config, const char *name) noexcept
+{
+    return answered(false, [&] {
+        const OCIO::ConstColorSpaceRcPtr space = config->config->getColorSpace(name);
+        return space && space->isData();
+    });
+}
+
+const char *ppmi_ocio_view_space(const ppmi_ocio_config *config, const char *display,
+                                 const char *view) noexcept
+{
+    const char *const none = nullptr;
+    return answered(none, [&] {
+        const char *const name = config->config->getDisplayViewColorSpaceName(display, view);
+        const bool is_display = strcmp(name, OCIO::OCIO_VIEW_USE_DISPLAY_NAME) == 0;
+        return name_or_null(is_display ? display : name);
+    });
+}
+
+const char *ppmi_ocio_file_space(const ppmi_ocio_config *config, const char *path) noexcept
+{
+    const char *const none = nullptr;
+    return answered(none, [&] {
+        if (config->config->getMajorVersion() < 2) return none;
+        size_t rule = 0;
+        const char *const name = config->config->getColorSpaceFromFilepath(path, rule);
+        const size_t count = config->config->getFileRules()->getNumEntries();
+        return rule + 1 < count ? name_or_null(name) : none; /* Default is the last */
+    });
+}
+
 /* ---- conversions ----------------------------------------------------------------------------- */
 
 /* Linear Rec.709 to ACES2065-1 or, inverse, back. */
@@ -211,34 +255,54 @@ static ppmi_ocio_conversion *make_conversion(const ppmi_ocio_config *config,
     return new ppmi_ocio_conversion{processor->getOptimizedCPUProcessor(flags)};
 }
 
+static const char *append_look(const ppmi_ocio_config *config, const char *from, const char *look,
+                               const OCIO::GroupTransformRcPtr &group)
+{
+    if (!look || !*look) return from;
+    const char *const to = OCIO::LookTransform::GetLooksResultColorSpace(
+        config->config, config->config->getCurrentContext(), look);
+    const OCIO::LookTransformRcPtr transform = OCIO::LookTransform::Create();
+    transform->setSrc(from);
+    transform->setDst(to && *to ? to : from);
+    transform->setLooks(look);
+    group->appendTransform(transform);
+    return transform->getDst();
+}
+
 ppm_status ppmi_ocio_make_view(ppm_context *context, const ppmi_ocio_config *config,
-                               const char *name, const char *space, bool is_aces,
-                               const char *display, const char *view,
+                               const char *name, const char *from, const char *display,
+                               const char *view, const char *look,
                                ppmi_ocio_conversion **out_conversion) noexcept
 {
     return guarded(context, name, [&] {
         const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-        if (is_aces) group->appendTransform(rec709_to_aces(OCIO::TRANSFORM_DIR_FORWARD));
         const OCIO::DisplayViewTransformRcPtr to_view = OCIO::DisplayViewTransform::Create();
-        to_view->setSrc(space);
+        const std::string source = append_look(config, from, look, group);
+        to_view->setSrc(source.c_str());
         to_view->setDisplay(display);
         to_view->setView(view);
+        to_view->setLooksBypass(look != nullptr);
         group->appendTransform(to_view);
         *out_conversion = make_conversion(config, group);
     });
 }
 
-ppm_status ppmi_ocio_make_input(ppm_context *context, const ppmi_ocio_config *config,
-                                const char *name, const char *from, const char *space, bool is_aces,
-                                ppmi_ocio_conversion **out_conversion) noexcept
+ppm_status ppmi_ocio_make_conversion(ppm_context *context, const ppmi_ocio_config *config,
+                                     const char *name, ppmi_ocio_space from, ppmi_ocio_space to,
+                                     ppmi_ocio_conversion **out_conversion) noexcept
 {
     return guarded(context, name, [&] {
         const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
+        if (from.is_rec709_by_aces) {
+            group->appendTransform(rec709_to_aces(OCIO::TRANSFORM_DIR_FORWARD));
+        }
         const OCIO::ColorSpaceTransformRcPtr to_space = OCIO::ColorSpaceTransform::Create();
-        to_space->setSrc(from);
-        to_space->setDst(space);
+        to_space->setSrc(from.name);
+        to_space->setDst(to.name);
         group->appendTransform(to_space);
-        if (is_aces) group->appendTransform(rec709_to_aces(OCIO::TRANSFORM_DIR_INVERSE));
+        if (to.is_rec709_by_aces) {
+            group->appendTransform(rec709_to_aces(OCIO::TRANSFORM_DIR_INVERSE));
+        }
         *out_conversion = make_conversion(config, group);
     });
 }

@@ -41,16 +41,35 @@ const char *ppmi_ocio_space_name(const ppmi_ocio_config *config, uint32_t index)
 /* The space of that name, alias or role. */
 const char *ppmi_ocio_find_space(const ppmi_ocio_config *config, const char *name) PPMI_NOEXCEPT;
 
-/* From linear Rec.709 to a display and view. space is linear Rec.709 itself or, where is_aces, the
- * ACES2065-1 of the configuration. Returns OK, INPUT_INVALID, OUT_OF_MEMORY. */
+uint32_t ppmi_ocio_look_count(const ppmi_ocio_config *config) PPMI_NOEXCEPT;
+const char *ppmi_ocio_look_name(const ppmi_ocio_config *config, uint32_t index) PPMI_NOEXCEPT;
+/* Whether the space holds numbers that are no colours. */
+bool ppmi_ocio_space_is_data(const ppmi_ocio_config *config, const char *name) PPMI_NOEXCEPT;
+/* The space that a display and view end in, as the configuration calls it. */
+const char *ppmi_ocio_view_space(const ppmi_ocio_config *config, const char *display,
+                                 const char *view) PPMI_NOEXCEPT;
+/* The space that the configuration's own rules give a file, by a rule other than Default; NULL:
+ * none applies. Configurations of version 1 have no rules. */
+const char *ppmi_ocio_file_space(const ppmi_ocio_config *config, const char *path) PPMI_NOEXCEPT;
+
+/* From a space to a display and view. look: NULL for the view's own, else in place of it ("" for
+ * none). Returns OK, INPUT_INVALID, OUT_OF_MEMORY. */
 ppm_status ppmi_ocio_make_view(ppm_context *context, const ppmi_ocio_config *config,
-                               const char *name, const char *space, bool is_aces,
-                               const char *display, const char *view,
+                               const char *name, const char *from, const char *display,
+                               const char *view, const char *look,
                                ppmi_ocio_conversion **out_conversion) PPMI_NOEXCEPT;
-/* From a space to linear Rec.709, named as above. Returns the same. */
-ppm_status ppmi_ocio_make_input(ppm_context *context, const ppmi_ocio_config *config,
-                                const char *name, const char *from, const char *space, bool is_aces,
-                                ppmi_ocio_conversion **out_conversion) PPMI_NOEXCEPT;
+
+/* A space of the configuration or, where is_rec709_by_aces, linear Rec.709 told by the ACES2065-1
+ * of that name. */
+typedef struct ppmi_ocio_space {
+    const char *name;
+    bool is_rec709_by_aces;
+} ppmi_ocio_space;
+
+/* From one space to another. Returns the same. */
+ppm_status ppmi_ocio_make_conversion(ppm_context *context, const ppmi_ocio_config *config,
+                                     const char *name, ppmi_ocio_space from, ppmi_ocio_space to,
+                                     ppmi_ocio_conversion **out_conversion) PPMI_NOEXCEPT;
 void ppmi_ocio_conversion_destroy(ppmi_ocio_conversion *conversion) PPMI_NOEXCEPT;
 
 /* Converts pixel_count packed pixels of 3 or 4 channels in place. Any thread.

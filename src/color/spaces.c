@@ -15,7 +15,7 @@ static const char *find_first(const ppmi_ocio_config *config, const char *const 
 
 #define FIND_FIRST(config, names) find_first(config, names, sizeof names / sizeof names[0])
 
-bool ppmi_color_find_working_space(const ppmi_ocio_config *config, ppmi_working_space *out_space)
+bool ppmi_color_find_rec709(const ppmi_ocio_config *config, ppmi_ocio_space *out_space)
 {
     static const char *const rec709_names[] = {
         "Linear Rec.709 (sRGB)",
@@ -34,20 +34,11 @@ bool ppmi_color_find_working_space(const ppmi_ocio_config *config, ppmi_working_
     };
     static const char *const aces_names[] = {"aces_interchange", "ACES2065-1", "ACES - ACES2065-1",
                                              "lin_ap0"};
-    static const char *const linear_roles[] = {"scene_linear", "rendering", "reference", "default"};
 
-    const char *name = FIND_FIRST(config, rec709_names);
-    ppmi_working_kind kind = PPMI_WORKING_REC709;
-    if (!name) {
-        name = FIND_FIRST(config, aces_names);
-        kind = PPMI_WORKING_ACES;
-    }
-    if (!name) {
-        name = FIND_FIRST(config, linear_roles);
-        kind = PPMI_WORKING_GUESS;
-    }
-    if (!name) return false;
-    *out_space = (ppmi_working_space){.name = name, .kind = kind};
+    const char *const rec709 = FIND_FIRST(config, rec709_names);
+    const char *const aces = rec709 ? NULL : FIND_FIRST(config, aces_names);
+    if (!rec709 && !aces) return false;
+    *out_space = (ppmi_ocio_space){rec709 ? rec709 : aces, !rec709};
     return true;
 }
 

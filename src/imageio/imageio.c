@@ -258,7 +258,10 @@ static ppm_status decode(ppm_context *context, ppmi_oiio_reader *reader, const c
         .u8 = info->is_u8 ? samples : NULL,
         .f32 = info->is_u8 ? NULL : samples,
         .is_linear = info->is_float,
+        .has_chromaticities = info->has_chromaticities,
     };
+    memcpy(out_pixels->chromaticities, info->chromaticities, sizeof info->chromaticities);
+    memcpy(out_pixels->color_space, info->color_space, sizeof info->color_space);
     set_stored(info, part, out_pixels);
     if (info->is_associated && !format->keeps_alpha_straight) unassociate(out_pixels);
     return PPM_STATUS_OK;

@@ -21,6 +21,11 @@ typedef struct ppmi_pixels {
     /* The part that the file stores (OpenEXR's data window, cut to the picture); everything else is
      * zero. Elsewhere the whole picture. */
     uint32_t stored_x, stored_y, stored_width, stored_height;
+    /* What the file says of its values: chromaticities of red, green, blue and white (OpenEXR), and
+     * the name of a space (colorInteropID); "": nothing. */
+    bool has_chromaticities;
+    float chromaticities[8];
+    char color_space[64];
 } ppmi_pixels;
 
 /* Decodes a file. name is used in messages. Files of more than 4 channels give the first four, in

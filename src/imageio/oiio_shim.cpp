@@ -113,6 +113,10 @@ static void fill_info(const ImageSpec &spec, ppmi_oiio_info *info)
     info->is_float = spec.format.is_floating_point();
     info->is_associated = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     info->is_deep = spec.deep;
+    info->has_chromaticities =
+        spec.getattribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), info->chromaticities);
+    const std::string space = spec.get_string_attribute("colorInteropID").substr(0, 63);
+    memcpy(info->color_space, space.c_str(), space.size() + 1);
 }
 
 static ppm_status open_reader(ppm_context *context, const char *format, const void *bytes,

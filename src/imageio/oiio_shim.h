@@ -28,7 +28,10 @@ typedef struct ppmi_oiio_info {
     bool is_u8;            /* samples of at most 8 bits */
     bool is_float;         /* half or float samples */
     bool is_associated;    /* colours come multiplied by alpha */
-    bool is_deep;          /* several samples in a pixel: cannot be read */
+    bool has_chromaticities;
+    float chromaticities[8];
+    char color_space[64]; /* colorInteropID; "": none */
+    bool is_deep;         /* several samples in a pixel: cannot be read */
 } ppmi_oiio_info;
 
 /* Opens the image in bytes, which must outlive the reader, as the OpenImageIO format.

@@ -313,7 +313,7 @@ static ppm_status build_world(ppm_render *render)
         ppmi_lobe_table_init(render->lobes);
         render->albedo->lobes = render->lobes;
     }
-    ppmi_spectrum_init(render->spectrum);
+    ppmi_spectrum_init(render->spectrum, &render->scene->working);
     ppm_status status = build_glass_table(render);
     if (status == PPM_STATUS_OK) {
         status = ppmi_accel_create(render->context, render->scene, &render->accel);

@@ -36,6 +36,7 @@ ppm_status ppm_scene_image_mean(const ppm_scene *scene, ppm_image_id id, float o
     }
     for (int i = 0; i < 4; i++)
         out_rgba[i] = (float)(sums[i] / (double)count);
+    if (image->is_working) ppmi_matrix_apply(scene->working.to_rec709, out_rgba, out_rgba);
     return PPM_STATUS_OK;
 }
 

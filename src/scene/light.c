@@ -190,6 +190,7 @@ static void fill(const ppm_light_desc *desc, char *name, ppmi_vec3 right, ppmi_v
 static ppm_status make_light(ppm_scene *scene, const ppm_light_desc *desc, ppmi_punctual *out_light)
 {
     const char *name = desc->name ? desc->name : "", *fault = light_fault(scene, desc);
+    float intensity[3];
     const ppmi_transform to_world = ppmi_transform_load(desc->transform);
     ppmi_vec3 right, up, back;
     if (!fault && !unit_axes(&to_world, &right, &up, &back)) {
@@ -207,6 +208,8 @@ static ppm_status make_light(ppm_scene *scene, const ppm_light_desc *desc, ppmi_
     }
     fill(desc, name_copy, right, up, back, out_light);
     out_light->light_group = group;
+    ppmi_working_light(&scene->working, desc->intensity, intensity);
+    out_light->intensity = vec3_load(intensity);
     out_light->position = out_light->given_position = to_world.origin;
     return PPM_STATUS_OK;
 }

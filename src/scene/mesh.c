@@ -271,6 +271,14 @@ static bool keep_given(ppm_scene *scene, const uint32_t *given, uint32_t count,
     return true;
 }
 
+/* They multiply a reflectance, but may be above 1. */
+static void colors_to_working_space(const ppmi_working_space *space, ppmi_primitive *primitive)
+{
+    if (!primitive->colors || !space->differs) return;
+    for (size_t i = 0; i < primitive->vertex_count; i++)
+        ppmi_working_light(space, primitive->colors + 4 * i, primitive->colors + 4 * i);
+}
+
 static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t index,
                                  uint32_t default_material, ppmi_mesh *mesh, mesh_faults *faults)
 {
@@ -294,6 +302,7 @@ static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *des
     }
     clean_vertices(primitive, faults);
     replace_not_finite(primitive->colors, 4 * (size_t)primitive->vertex_count, 1.0f);
+    colors_to_working_space(&scene->working, primitive);
     for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++) {
         replace_not_finite(primitive->uvs[i], 2 * (size_t)primitive->vertex_count, 0.0f);
     }
@@ -449,10 +458,12 @@ static void replace(const float *from, size_t count, float by, float *to)
 }
 
 /* As many as there were, so in place. */
-static void replace_colors_and_uvs(const ppm_primitive_desc *desc, ppmi_primitive *target)
+static void replace_colors_and_uvs(const ppmi_working_space *space, const ppm_primitive_desc *desc,
+                                   ppmi_primitive *target)
 {
     const size_t count = target->vertex_count;
     replace(desc->colors, 4 * count, 1.0f, target->colors);
+    if (desc->colors) colors_to_working_space(space, target);
     for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++)
         replace(desc->uvs[i], 2 * count, 0.0f, target->uvs[i]);
 }
@@ -479,7 +490,7 @@ ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_
     free_vertices(scene->context, target);
     mesh->shape_version++;
     *target = changed;
-    replace_colors_and_uvs(desc, target);
+    replace_colors_and_uvs(&scene->working, desc, target);
     update_bounds(mesh);
     report_faults(scene, mesh->name, &faults);
     return PPM_STATUS_OK;

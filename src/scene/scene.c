@@ -284,6 +284,17 @@ static bool is_empty(const ppmi_medium *medium)
     return vec3_is_black(medium->sigma_s) && vec3_is_black(medium->sigma_a);
 }
 
+/* The colours of a material, factors as reflectances (KHR_materials_specular's may be above 1). */
+static void to_working_space(const ppmi_working_space *space, ppm_material_desc *desc)
+{
+    float *const reflectances[] = {desc->base_color, desc->attenuation_color, desc->sheen_color,
+                                   desc->diffuse_transmission_color, desc->multiscatter_color};
+    for (size_t i = 0; i < sizeof reflectances / sizeof reflectances[0]; i++)
+        ppmi_working_reflectance(space, reflectances[i], reflectances[i]);
+    ppmi_working_light(space, desc->emission, desc->emission);
+    ppmi_working_light(space, desc->specular_color, desc->specular_color);
+}
+
 /* What rendering asks of a material again and again. A surface that transmits diffusely bounds a
  * solid where there is something inside: it is no border for anything else. */
 static void derive(ppmi_material *material)
@@ -324,6 +335,7 @@ ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *des
     }
     material->desc = *desc;
     material->desc.name = NULL;
+    to_working_space(&scene->working, &material->desc);
     derive(material);
     *out_id = ++scene->material_count;
     return PPM_STATUS_OK;
@@ -367,13 +379,16 @@ ppm_status ppm_scene_set_environment(ppm_scene *scene, const ppm_environment_des
                          "out of memory for the environment");
     }
     ppmi_free(scene->context, scene->environment.light_group);
+    float radiance[3], backdrop[3];
+    ppmi_working_light(&scene->working, desc->radiance, radiance);
+    ppmi_working_light(&scene->working, desc->backdrop, backdrop);
     scene->environment = (ppmi_environment){
         .is_set = true,
-        .radiance = vec3_load(desc->radiance),
+        .radiance = vec3_load(radiance),
         .image = desc->image,
         .rotation_rad = desc->rotation_rad,
         .has_backdrop = desc->has_backdrop != 0,
-        .backdrop = vec3_load(desc->backdrop),
+        .backdrop = vec3_load(backdrop),
         .light_group = group,
     };
     return PPM_STATUS_OK;
@@ -388,9 +403,11 @@ ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "fog: coefficients must be at least 0 per metre, g between -1 and 1");
     }
+    float sigma_s[3], sigma_a[3];
+    ppmi_working_medium(&scene->working, desc->sigma_s, desc->sigma_a, sigma_s, sigma_a);
     scene->fog = (ppmi_medium){
-        .sigma_s = vec3_load(desc->sigma_s),
-        .sigma_a = vec3_load(desc->sigma_a),
+        .sigma_s = vec3_load(sigma_s),
+        .sigma_a = vec3_load(sigma_a),
         .asymmetry_g = desc->asymmetry_g,
     };
     return PPM_STATUS_OK;

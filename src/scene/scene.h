@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/context.h"
+#include "base/working_space.h"
 #include "math/transform.h"
 #include "ppm/scene.h"
 
@@ -25,9 +26,12 @@ typedef struct ppmi_image_level {
 typedef struct ppmi_image {
     char *name;
     uint32_t width, height, channels;
-    uint8_t *u8;  /* or NULL */
-    float *f32;   /* or NULL; linear */
-    bool is_srgb; /* u8 holds sRGB-encoded colour */
+    uint8_t *u8;     /* or NULL */
+    float *f32;      /* or NULL; linear */
+    bool is_srgb;    /* u8 holds sRGB-encoded colour */
+    bool is_working; /* f32 holds colour of a working space that is not linear Rec.709 */
+    bool is_rec709;  /* u8 holds colour of Rec.709 primaries; look-ups bring it to the working space
+                      */
 
     uint32_t mip_count;     /* levels beyond the image itself; scene/mipmap.h */
     ppmi_image_level *mips; /* NULL: not built */
@@ -174,6 +178,8 @@ typedef struct ppmi_kept {
 struct ppm_scene {
     ppm_context *context;
     float srgb_to_linear[256];
+    ppmi_working_space working; /* of all colours, but those of images that say otherwise */
+    const ppm_color *color;     /* what it was made with, or NULL */
     uint32_t image_count, material_count, mesh_count, instance_count, camera_count, punctual_count;
     uint32_t profile_count;
     ppmi_image *images;

@@ -51,11 +51,12 @@ typedef struct ppmi_bsdf_layers {
     ppmi_vec3 through;
     /* film on the base's speculars */
     float film, film_ior, film_nm;
-    ppmi_vec3 film_f0;      /* of the dielectric below */
-    ppmi_vec2 alpha;        /* of SPEC, along the frame's axes */
-    float anisotropy;       /* strength */
-    float retro;            /* share of RETRO in the base's speculars */
-    float opaque, metallic; /* share of what is not glass; metal's share of that */
+    const ppmi_working_space *space; /* NULL: linear Rec.709 */
+    ppmi_vec3 film_f0;               /* of the dielectric below */
+    ppmi_vec2 alpha;                 /* of SPEC, along the frame's axes */
+    float anisotropy;                /* strength */
+    float retro;                     /* share of RETRO in the base's speculars */
+    float opaque, metallic;          /* share of what is not glass; metal's share of that */
 } ppmi_bsdf_layers;
 
 typedef struct ppmi_bsdf {

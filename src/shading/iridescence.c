@@ -17,7 +17,7 @@ enum { MOST_TERMS = 12 };
  * colour matching functions as Gaussians in the frequency domain (Belcour and Barla, section 4,
  * and its published constants). Each is scaled to 1 at no difference, so that the result is the
  * mean of the cosine under it. */
-static ppmi_vec3 mean_cosine(float path_nm, float shift)
+static ppmi_vec3 mean_cosine(const float m[9], float path_nm, float shift)
 {
     const float phase = 2.0f * PPMI_PI * 1e-9f * path_nm;
     const float phase2 = phase * phase;
@@ -26,11 +26,10 @@ static ppmi_vec3 mean_cosine(float path_nm, float shift)
                     0.1538f * cosf(2.2399e6f * phase + shift) * expf(-4.5282e9f * phase2);
     const float y = cosf(1.7953e6f * phase + shift) * expf(-9.3046e9f * phase2);
     const float z = cosf(2.2084e6f * phase + shift) * expf(-6.6121e9f * phase2);
-    /* XYZ of D65 times these, to linear Rec.709: the rows sum to 1 */
+    /* XYZ of D65 times these, to the working space: the rows sum to 1 */
     const float wx = 0.95047f * x, wz = 1.08883f * z;
-    return vec3(3.2404542f * wx - 1.5371385f * y - 0.4985314f * wz,
-                -0.9692660f * wx + 1.8760108f * y + 0.0415560f * wz,
-                0.0556434f * wx - 0.2040259f * y + 1.0572252f * wz);
+    return vec3(m[0] * wx + m[1] * y + m[2] * wz, m[3] * wx + m[4] * y + m[5] * wz,
+                m[6] * wx + m[7] * y + m[8] * wz);
 }
 
 static float channel(ppmi_vec3 v, int i)
@@ -72,20 +71,22 @@ static film_series make_series(float film_ior, float base_f0, float r12, float p
                          .shift = PPMI_PI - phase12 + phase23};
 }
 
-static float sum_series(const film_series *series, int which, float path_nm)
+static float sum_series(const film_series *series, const float to_rgb[9], int which, float path_nm)
 {
     float sum = series->mean, amplitude = series->first;
     for (int m = 1; m <= MOST_TERMS; m++) {
         amplitude *= series->factor;
         if (fabsf(amplitude) < 1e-4f) break;
-        sum +=
-            amplitude * channel(mean_cosine((float)m * path_nm, (float)m * series->shift), which);
+        sum += amplitude *
+               channel(mean_cosine(to_rgb, (float)m * path_nm, (float)m * series->shift), which);
     }
     return ppmi_clampf(sum, 0.0f, 1.0f);
 }
 
-ppmi_vec3 ppmi_film_reflectance(float film_ior, float thickness_nm, ppmi_vec3 base_f0, float cosine)
+ppmi_vec3 ppmi_film_reflectance(float film_ior, float thickness_nm, ppmi_vec3 base_f0, float cosine,
+                                const ppmi_working_space *space)
 {
+    const float *to_rgb = (space->differs ? space : &ppmi_working_space_rec709)->from_xyz;
     const float cos2_film = 1.0f - (1.0f - cosine * cosine) / (film_ior * film_ior);
     if (cos2_film <= 0.0f) return vec3_splat(1.0f);
     const float cos_film = sqrtf(cos2_film);
@@ -96,7 +97,7 @@ ppmi_vec3 ppmi_film_reflectance(float film_ior, float thickness_nm, ppmi_vec3 ba
     for (int i = 0; i < 3; i++) {
         const film_series series =
             make_series(film_ior, channel(base_f0, i), r12, phase12, cos_film);
-        reflectance[i] = sum_series(&series, i, path_nm);
+        reflectance[i] = sum_series(&series, to_rgb, i, path_nm);
     }
     return vec3_load(reflectance);
 }

@@ -100,7 +100,8 @@ static bool is_mirror(const ppmi_bsdf_layers *layers)
 
 static ppmi_vec3 film_at(const ppmi_bsdf_layers *layers, ppmi_vec3 f0, float cosine)
 {
-    return ppmi_film_reflectance(layers->film_ior, layers->film_nm, f0, cosine);
+    return ppmi_film_reflectance(layers->film_ior, layers->film_nm, f0, cosine,
+                                 layers->space ? layers->space : &ppmi_working_space_rec709);
 }
 
 static ppmi_vec3 spec_fresnel(const ppmi_bsdf *bsdf, float cos_h)
@@ -267,6 +268,7 @@ static void set_layers(ppmi_bsdf *bsdf, const ppmi_layer_point *point,
         .film = point->film_nm > 0.0f ? point->film : 0.0f,
         .film_ior = point->film_ior,
         .film_nm = point->film_nm,
+        .space = point->space,
         .film_f0 = shares->dielectric_f0,
         .alpha = {bsdf->alpha, bsdf->alpha},
         .anisotropy = point->anisotropy,

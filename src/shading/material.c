@@ -85,6 +85,7 @@ static void evaluate_film(const ppm_scene *scene, const ppmi_surface *surface,
     const float least = desc->iridescence_thickness_min_nm;
     layers->film = unit(desc->iridescence * lookup(scene, surface, &desc->iridescence_texture).r);
     layers->film_ior = desc->iridescence_ior;
+    layers->space = &scene->working;
     layers->film_nm = ppmi_max(least + (desc->iridescence_thickness_max_nm - least) * t, 0.0f);
 }
 

@@ -10,7 +10,8 @@ typedef struct ppmi_layer_point {
     ppmi_vec3 coat_normal; /* front side */
     ppmi_vec3 sheen_color;
     float sheen_roughness;
-    float film, film_ior, film_nm; /* iridescence: share, index, thickness */
+    float film, film_ior, film_nm;   /* iridescence: share, index, thickness */
+    const ppmi_working_space *space; /* whose channels a film's colours are; NULL: Rec.709 */
     float anisotropy;
     ppmi_vec3 tangent; /* direction of anisotropy; 0: none */
     float through;     /* diffuse transmission: share of the diffuse base */

@@ -2,8 +2,9 @@
  *
  * Colour matching functions of the 1931 observer by Wyman, Sloan, Shirley 2013, "Simple Analytic
  * Approximations to the CIE XYZ Color Matching Functions" (JCGT 2.2), the multi-lobe fit. Spectral
- * colours lie outside of Rec.709; their negative channels are taken as 0 and the channels are then
- * scaled to equal sums, so that light stays positive and the whole spectrum white. */
+ * colours lie outside of all primaries in use; their negative channels are taken as 0 and the
+ * channels are then scaled to equal sums, so that light stays positive and the whole spectrum
+ * white. */
 #include "shading/spectrum.h"
 
 static float lobe(float wavelength, float mean, float below, float above)
@@ -20,20 +21,21 @@ static ppmi_vec3 observer_xyz(float w)
                 1.217f * lobe(w, 437.0f, 11.8f, 36.0f) + 0.681f * lobe(w, 459.0f, 26.0f, 13.8f));
 }
 
-/* XYZ to linear Rec.709 (IEC 61966-2-1), without what is negative. */
-static ppmi_vec3 positive_rgb(ppmi_vec3 xyz)
+/* XYZ to the working space, without what is negative. */
+static ppmi_vec3 positive_rgb(const float m[9], ppmi_vec3 xyz)
 {
-    return vec3(ppmi_max(3.2404542f * xyz.x - 1.5371385f * xyz.y - 0.4985314f * xyz.z, 0.0f),
-                ppmi_max(-0.9692660f * xyz.x + 1.8760108f * xyz.y + 0.0415560f * xyz.z, 0.0f),
-                ppmi_max(0.0556434f * xyz.x - 0.2040259f * xyz.y + 1.0572252f * xyz.z, 0.0f));
+    return vec3(ppmi_max(m[0] * xyz.x + m[1] * xyz.y + m[2] * xyz.z, 0.0f),
+                ppmi_max(m[3] * xyz.x + m[4] * xyz.y + m[5] * xyz.z, 0.0f),
+                ppmi_max(m[6] * xyz.x + m[7] * xyz.y + m[8] * xyz.z, 0.0f));
 }
 
-void ppmi_spectrum_init(ppmi_spectrum *spectrum)
+void ppmi_spectrum_init(ppmi_spectrum *spectrum, const ppmi_working_space *space)
 {
+    const float *to_rgb = (space->differs ? space : &ppmi_working_space_rec709)->from_xyz;
     ppmi_vec3 sum = vec3_splat(0.0f);
     for (int i = 0; i < PPMI_SPECTRUM_BINS; i++) {
         spectrum->weight[i] =
-            positive_rgb(observer_xyz((float)(PPMI_SPECTRUM_FIRST_NM + i) + 0.5f));
+            positive_rgb(to_rgb, observer_xyz((float)(PPMI_SPECTRUM_FIRST_NM + i) + 0.5f));
         sum = vec3_add(sum, spectrum->weight[i]);
     }
     const ppmi_vec3 scale = vec3(1.0f / sum.x, 1.0f / sum.y, 1.0f / sum.z);

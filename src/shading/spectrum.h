@@ -1,5 +1,5 @@
 /* Wavelengths for dispersion: an index of refraction by wavelength, and the share of a wavelength
- * in the channels of linear Rec.709.
+ * in the channels of the working space.
  *
  * A path is carried in RGB until its first dispersive refraction; it then draws one wavelength and
  * keeps it. The weights have mean 1 in every channel, so that all wavelengths together are white.
@@ -7,6 +7,7 @@
 #ifndef PPMI_SHADING_SPECTRUM_H
 #define PPMI_SHADING_SPECTRUM_H
 
+#include "base/working_space.h"
 #include "math/vec.h"
 
 enum { PPMI_SPECTRUM_FIRST_NM = 385, PPMI_SPECTRUM_LAST_NM = 725, PPMI_SPECTRUM_BINS = 340 };
@@ -16,7 +17,7 @@ typedef struct ppmi_spectrum {
     float cumulative[PPMI_SPECTRUM_BINS + 1];
 } ppmi_spectrum;
 
-void ppmi_spectrum_init(ppmi_spectrum *spectrum);
+void ppmi_spectrum_init(ppmi_spectrum *spectrum, const ppmi_working_space *space);
 
 /* Draws a wavelength, nm, in proportion to its share in the three channels together. */
 float ppmi_spectrum_sample(const ppmi_spectrum *spectrum, float u);

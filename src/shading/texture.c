@@ -105,10 +105,21 @@ static ppmi_texel finest(const ppm_scene *scene, const ppm_texture *texture,
                                                  : bilinear(scene, texture, image, 0, uv);
 }
 
+/* A matrix may follow the filter: both are linear. */
+static ppmi_texel in_working_space(const ppm_scene *scene, const ppmi_image *image,
+                                   ppmi_texel texel)
+{
+    if (!image->is_rec709) return texel;
+    float rgb[3] = {texel.r, texel.g, texel.b};
+    ppmi_working_light(&scene->working, rgb, rgb);
+    return (ppmi_texel){rgb[0], rgb[1], rgb[2], texel.a};
+}
+
 ppmi_texel ppmi_texture_lookup(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv)
 {
-    return finest(scene, texture, &scene->images[texture->image - 1],
-                  transformed(texture, uv, 1.0f));
+    const ppmi_image *image = &scene->images[texture->image - 1];
+    return in_working_space(scene, image,
+                            finest(scene, texture, image, transformed(texture, uv, 1.0f)));
 }
 
 /* ---- footprints ------------------------------------------------------------------------------ */
@@ -168,10 +179,9 @@ static ppmi_texel along_axis(const ppm_scene *scene, const ppm_texture *texture,
     return (ppmi_texel){sum.r * share, sum.g * share, sum.b * share, sum.a * share};
 }
 
-ppmi_texel ppmi_texture_filtered(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv,
-                                 ppmi_vec2 uv_dx, ppmi_vec2 uv_dy)
+static ppmi_texel filtered(const ppm_scene *scene, const ppm_texture *texture,
+                           const ppmi_image *image, ppmi_vec2 uv, ppmi_vec2 uv_dx, ppmi_vec2 uv_dy)
 {
-    const ppmi_image *image = &scene->images[texture->image - 1];
     const float width = (float)image->width, height = (float)image->height;
     ppmi_vec2 dx = transformed(texture, uv_dx, 0.0f), dy = transformed(texture, uv_dy, 0.0f);
     dx = (ppmi_vec2){dx.x * width, dx.y * height};
@@ -182,4 +192,11 @@ ppmi_texel ppmi_texture_filtered(const ppm_scene *scene, const ppm_texture *text
     if (!(extent2 < 1e24f)) return bilinear(scene, texture, image, image->mip_count, uv);
     const ellipse e = ellipse_of(dx, dy);
     return along_axis(scene, texture, image, &e, uv);
+}
+
+ppmi_texel ppmi_texture_filtered(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv,
+                                 ppmi_vec2 uv_dx, ppmi_vec2 uv_dy)
+{
+    const ppmi_image *image = &scene->images[texture->image - 1];
+    return in_working_space(scene, image, filtered(scene, texture, image, uv, uv_dx, uv_dy));
 }

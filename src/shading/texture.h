@@ -9,8 +9,8 @@ typedef struct ppmi_texel {
     float r, g, b, a;
 } ppmi_texel;
 
-/* Colour or data at uv (origin top left, v down), linear; images without alpha give 1, grey ones
- * the grey in r, g and b. texture->image must not be 0. */
+/* Colour or data at uv (origin top left, v down), linear, colours in the working space; images
+ * without alpha give 1, grey ones the grey in r, g and b. texture->image must not be 0. */
 ppmi_texel ppmi_texture_lookup(const ppm_scene *scene, const ppm_texture *texture, ppmi_vec2 uv);
 
 /* The mean around uv over the parallelogram of two steps in uv (before the texture's transform),

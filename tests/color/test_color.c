@@ -82,10 +82,11 @@ static void assert_error_names(const char *part)
     if (!strstr(message, part)) fail_msg("\"%s\" is not in \"%s\"", part, message);
 }
 
-/* One pixel through a view. */
+/* One pixel of linear Rec.709 through a view. */
 static void show(const ppm_color *color, const char *view, float exposure_ev, float rgba[4])
 {
-    assert_int_equal(ppmi_color_to_display(context, color, NULL, view, exposure_ev, rgba, 1),
+    const ppmi_view_choice choice = {.view = view, .exposure_ev = exposure_ev};
+    assert_int_equal(ppmi_color_show(context, color, &choice, &ppmi_working_space_rec709, rgba, 1),
                      PPM_STATUS_OK);
 }
 
@@ -109,12 +110,13 @@ static void built_in_names_are_listed_and_end(void **state)
 {
     (void)state;
     ppm_color *const color = open_color(NULL);
-    assert_int_equal(ppm_color_display_count(color), 1);
+    assert_int_equal(ppm_color_display_count(color), 4);
     assert_string_equal(ppm_color_display_name(color, 0), "sRGB");
-    assert_null(ppm_color_display_name(color, 1));
-    assert_int_equal(ppm_color_view_count(color, "sRGB"), 3);
-    assert_string_equal(ppm_color_view_name(color, "sRGB", 1), "Standard");
-    assert_null(ppm_color_view_name(color, "sRGB", 3));
+    assert_string_equal(ppm_color_display_name(color, 2), "Display P3");
+    assert_null(ppm_color_display_name(color, 4));
+    assert_int_equal(ppm_color_view_count(color, "sRGB"), 5);
+    assert_string_equal(ppm_color_view_name(color, "sRGB", 3), "Standard");
+    assert_null(ppm_color_view_name(color, "sRGB", 5));
     assert_int_equal(ppm_color_view_count(color, "none"), 0);
     const uint32_t spaces = ppm_color_space_count(color);
     assert_true(spaces >= 6);
@@ -197,8 +199,10 @@ static void unknown_names_get_a_suggestion(void **state)
     assert_int_equal(ppm_color_check_view(context, color, "sRBG", NULL), PPM_STATUS_NOT_FOUND);
     assert_error_names("did you mean \"sRGB\"");
     float rgba[4] = {1, 1, 1, 1};
-    assert_int_equal(ppmi_color_to_display(context, color, "", "zzz", 0, rgba, 1),
-                     PPM_STATUS_NOT_FOUND);
+    const ppmi_view_choice unknown = {.display = "", .view = "zzz"};
+    assert_int_equal(
+        ppmi_color_show(context, color, &unknown, ppmi_color_working_space(color), rgba, 1),
+        PPM_STATUS_NOT_FOUND);
     assert_float_equal(rgba[0], 1, 0);
     ppm_color_destroy(color);
 }
@@ -212,6 +216,7 @@ static void names_are_found_in_any_letter_case(void **state)
     ppm_color_destroy(color);
 }
 
+#define REC709_SPACE "  - !<ColorSpace> {name: lin_srgb}\n"
 #define SMALL_CONFIG(roles, spaces)                                                                \
     "ocio_profile_version: 1\n"                                                                    \
     "search_path: .\n"                                                                             \
@@ -228,7 +233,7 @@ static void names_are_found_in_any_letter_case(void **state)
 static void environment_variable_names_the_configuration(void **state)
 {
     (void)state;
-    scratch_write_text("config.ocio", SMALL_CONFIG("  default: working\n", ""));
+    scratch_write_text("config.ocio", SMALL_CONFIG("  default: working\n", REC709_SPACE));
     setenv("OCIO", scratch_path("config.ocio"), 1);
     ppm_color *color = open_color(NULL);
     assert_string_equal(ppm_color_source(color), scratch_path("config.ocio"));
@@ -241,15 +246,15 @@ static void environment_variable_names_the_configuration(void **state)
     unsetenv("OCIO");
 }
 
-static void unknown_primaries_are_a_warning(void **state)
+static void a_configuration_that_does_not_know_rec709_is_refused(void **state)
 {
     (void)state;
-    ppm_color *const color = open_text(SMALL_CONFIG("  scene_linear: working\n", ""));
-    assert_true(warning_count > 0);
-    float rgba[4] = {0.1f, 0.2f, 0.3f, 1};
-    show(color, "plain", 0, rgba);
-    assert_float_equal(rgba[2], 0.3f, 1e-6);
-    ppm_color_destroy(color);
+    ppm_color *color = NULL;
+    scratch_write_text("config.ocio", SMALL_CONFIG("  scene_linear: working\n", ""));
+    assert_int_equal(ppm_color_create(context, scratch_path("config.ocio"), &color),
+                     PPM_STATUS_INPUT_INVALID);
+    assert_null(color);
+    assert_error_names("aces_interchange");
 }
 
 static void an_aces_configuration_gets_a_matrix(void **state)
@@ -269,7 +274,7 @@ static void an_aces_configuration_gets_a_matrix(void **state)
 static void a_missing_table_fails_only_its_view(void **state)
 {
     (void)state;
-    ppm_color *const color = open_text(SMALL_CONFIG("  default: working\n", ""));
+    ppm_color *const color = open_text(SMALL_CONFIG("  default: working\n", REC709_SPACE));
     assert_int_equal(ppm_color_check_view(context, color, NULL, "plain"), PPM_STATUS_OK);
     assert_int_equal(ppm_color_check_view(context, color, NULL, "lut"), PPM_STATUS_INPUT_INVALID);
     assert_error_names("missing.spi1d");
@@ -332,9 +337,9 @@ static void broken_tables_fail_with_their_name(void **state)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char text[4096];
         snprintf(text, sizeof text,
-                 "ocio_profile_version: 1\nsearch_path: %s\nroles:\n  default: working\n"
+                 "ocio_profile_version: 1\nsearch_path: %s\nroles:\n  default: lin_srgb\n"
                  "displays:\n  screen:\n    - !<View> {name: lut, colorspace: with_lut}\n"
-                 "colorspaces:\n  - !<ColorSpace> {name: working}\n"
+                 "colorspaces:\n  - !<ColorSpace> {name: lin_srgb}\n"
                  "  - !<ColorSpace>\n    name: with_lut\n"
                  "    from_reference: !<FileTransform> {src: %s.clf}\n",
                  folder, names[i]);
@@ -391,7 +396,7 @@ int main(void)
         TEST(unknown_names_get_a_suggestion),
         TEST(names_are_found_in_any_letter_case),
         TEST(environment_variable_names_the_configuration),
-        TEST(unknown_primaries_are_a_warning),
+        TEST(a_configuration_that_does_not_know_rec709_is_refused),
         TEST(an_aces_configuration_gets_a_matrix),
         TEST(a_missing_table_fails_only_its_view),
         TEST(broken_configurations_are_refused),

@@ -80,12 +80,12 @@ static void a_configuration_that_knows_no_srgb_gets_the_built_in_curve(void **st
 {
     (void)state;
     scratch_write_text("config.ocio", "ocio_profile_version: 1\n"
-                                      "roles:\n  default: working\n"
+                                      "roles:\n  default: lnf\n"
                                       "displays:\n"
                                       "  screen:\n"
-                                      "    - !<View> {name: plain, colorspace: working}\n"
+                                      "    - !<View> {name: plain, colorspace: lnf}\n"
                                       "colorspaces:\n"
-                                      "  - !<ColorSpace> {name: working}\n");
+                                      "  - !<ColorSpace> {name: lnf}\n");
     assert_table_of_file(scratch_path("config.ocio"), 5e-6);
 }
 

@@ -279,8 +279,13 @@ static void assert_shows_picture(const char *name, const ppm_output_options *opt
 {
     float picture[VALUES];
     assert_int_equal(ppm_render_read_image(render, picture, VALUES), PPM_STATUS_OK);
-    assert_int_equal(ppmi_color_to_display(context, color, options->display, options->view,
-                                           options->exposure_ev, picture, WIDTH * HEIGHT),
+    const ppmi_view_choice choice = {.display = options->display,
+                                     .view = options->view,
+                                     .look = options->look,
+                                     .exposure_ev = options->exposure_ev,
+                                     .gamma = options->gamma};
+    assert_int_equal(ppmi_color_show(context, color, &choice, &ppmi_working_space_rec709, picture,
+                                     WIDTH * HEIGHT),
                      PPM_STATUS_OK);
     assert_int_equal(write_picture(name, options), PPM_STATUS_OK);
     ppmi_pixels pixels = read_picture(name);

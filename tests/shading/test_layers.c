@@ -188,7 +188,8 @@ static void a_film_of_no_thickness_leaves_the_base(void **state)
     static const float indices[] = {1.2f, 1.5f, 2.4f};
     for (int i = 0; i < 3; i++) {
         const ppmi_vec3 f0 = vec3(0.04f, 0.3f, 0.9f);
-        const ppmi_vec3 r = ppmi_film_reflectance(indices[i], 0.0f, f0, 1.0f);
+        const ppmi_vec3 r =
+            ppmi_film_reflectance(indices[i], 0.0f, f0, 1.0f, &ppmi_working_space_rec709);
         assert_near(r.x, 0.04, 1e-3);
         assert_near(r.y, 0.3, 1e-3);
         assert_near(r.z, 0.9, 5e-3);
@@ -238,8 +239,8 @@ static void a_film_reflects_what_its_spectrum_says(void **state)
                 sum += luminosity(nm) * airy(film, base, thick, nm);
                 weight += luminosity(nm);
             }
-            const ppmi_vec3 rgb =
-                ppmi_film_reflectance((float)film, (float)thick, vec3_splat((float)f0), 1.0f);
+            const ppmi_vec3 rgb = ppmi_film_reflectance(
+                (float)film, (float)thick, vec3_splat((float)f0), 1.0f, &ppmi_working_space_rec709);
             /* the Gaussians of the closed form, and what does not fit into Rec.709 */
             assert_near(vec3_luminance(rgb), sum / weight, 0.035);
         }
@@ -253,10 +254,11 @@ static void a_films_colour_moves_to_blue_when_seen_askew(void **state)
     (void)state;
     const ppmi_vec3 f0 = vec3_splat(0.148f); /* 2.25 */
     const float nm = 3.0f * 550.0f / (4.0f * 1.5f);
-    const ppmi_vec3 straight = ppmi_film_reflectance(1.5f, nm, f0, 1.0f);
+    const ppmi_vec3 straight =
+        ppmi_film_reflectance(1.5f, nm, f0, 1.0f, &ppmi_working_space_rec709);
     assert_true(straight.y < 0.03f && straight.y < 0.5f * straight.x &&
                 straight.y < 0.5f * straight.z);
-    const ppmi_vec3 askew = ppmi_film_reflectance(1.5f, nm, f0, 0.6f);
+    const ppmi_vec3 askew = ppmi_film_reflectance(1.5f, nm, f0, 0.6f, &ppmi_working_space_rec709);
     assert_true(askew.z < askew.y && askew.z < askew.x);
 }
 

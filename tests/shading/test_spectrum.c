@@ -17,7 +17,7 @@ static ppmi_spectrum spectrum;
 static int start(void **state)
 {
     (void)state;
-    ppmi_spectrum_init(&spectrum);
+    ppmi_spectrum_init(&spectrum, &ppmi_working_space_rec709);
     return 0;
 }
 

@@ -208,7 +208,7 @@ static const ppmi_spectrum *shared_spectrum(void)
 {
     static ppmi_spectrum spectrum;
     static bool is_made;
-    if (!is_made) ppmi_spectrum_init(&spectrum);
+    if (!is_made) ppmi_spectrum_init(&spectrum, &ppmi_working_space_rec709);
     is_made = true;
     return &spectrum;
 }
