@@ -40,7 +40,8 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
         .name = ppmi_gltf_printable(node_name, strlen(node_name), name, sizeof name),
         .mesh = mesh,
         .asset = ppmi_gltf_asset_name(reader, index, asset, sizeof asset),
-        .light_group = ppmi_gltf_light_group(reader, index, "", group, sizeof group)};
+        .light_group = ppmi_gltf_light_group(reader, index, "", group, sizeof group),
+        .is_catcher = node->is_catcher};
     float motion[16 * PPM_MAX_MOTION_STEPS];
     for (uint32_t i = 0; i < steps; ++i) {
         const double *world =

@@ -132,6 +132,7 @@ typedef struct ppmi_gltf_node {
     double profile_factor, profile_color[3];
     ppmi_gltf_lamp_extras lamp;
     ppmi_gltf_area_extras area;
+    bool is_catcher; /* extras.ppm_catcher */
     uint32_t child_count;
     const int32_t *children;
     bool has_matrix;

@@ -5,16 +5,21 @@ namespace ppmi_gltf
 {
 namespace
 {
-// extras of a light or a node that carries one. Blender writes a checkbox as 0 or 1, or as a
-// boolean.
+// A boolean; Blender writes a checkbox as 0 or 1, or as one. -1: neither.
+int switch_of(const Value &value)
+{
+    if (value.IsBool()) return value.Get<bool>() ? 1 : 0;
+    if (value.IsNumber()) return value.GetNumberAsDouble() != 0.0 ? 1 : 0;
+    return -1;
+}
+
+// extras of a light or a node that carries one.
 ppmi_gltf_lamp_extras copy_lamp_extras(const Value &extras)
 {
-    const Value &visible = member(extras, "ppm_visible");
     ppmi_gltf_lamp_extras out = {
-        number_or(extras, "ppm_radius", -1.0), number_or(extras, "ppm_angle", -1.0), -1,
-        number_or(extras, "ppm_blend", -1.0), text_or_empty(extras, "ppm_light_group")};
-    if (visible.IsBool()) out.visible = visible.Get<bool>() ? 1 : 0;
-    if (visible.IsNumber()) out.visible = visible.GetNumberAsDouble() != 0.0 ? 1 : 0;
+        number_or(extras, "ppm_radius", -1.0), number_or(extras, "ppm_angle", -1.0),
+        switch_of(member(extras, "ppm_visible")), number_or(extras, "ppm_blend", -1.0),
+        text_or_empty(extras, "ppm_light_group")};
     return out;
 }
 
@@ -56,6 +61,7 @@ void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
     out->profile_factor = number_or(ies, "multiplier", 1.0);
     numbers_or(ies, "color", out->profile_color, 3, 1.0);
     out->lamp = copy_lamp_extras(from.extras);
+    out->is_catcher = switch_of(member(from.extras, "ppm_catcher")) == 1;
     out->area = copy_area_extras(member(from.extras, "ppm_area"));
 }
 

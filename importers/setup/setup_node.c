@@ -6,12 +6,12 @@
 
 typedef struct node_words {
     ppmi_setup_match match;
-    uint32_t visible;
+    uint32_t visible, catcher;
     const char *material;
     int32_t nested_priority;
 } node_words;
 
-enum { MATCH = 1, VISIBLE = 2, MATERIAL = 4, PRIORITY = 8 };
+enum { MATCH = 1, VISIBLE = 2, MATERIAL = 4, PRIORITY = 8, CATCHER = 16 };
 
 #define FIELD(member) .field = offsetof(node_words, member)
 static const ppmi_setup_key keys[] = {
@@ -19,6 +19,7 @@ static const ppmi_setup_key keys[] = {
     {"visible", PPMI_SETUP_FLAG, FIELD(visible)},
     {"material", PPMI_SETUP_TEXT, FIELD(material)},
     {"nested_priority", PPMI_SETUP_INTEGER, FIELD(nested_priority), -1e6, 1e6},
+    {"catcher", PPMI_SETUP_FLAG, FIELD(catcher)},
 };
 #undef FIELD
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
@@ -89,6 +90,9 @@ static ppm_status change_node(const ppmi_setup_value *rule, const node_words *wo
     ppm_status status = PPM_STATUS_OK;
     if (given & VISIBLE) {
         status = ppm_scene_set_instance_visible(setup->scene, id, words->visible);
+    }
+    if (status == PPM_STATUS_OK && given & CATCHER) {
+        status = ppm_scene_set_instance_catcher(setup->scene, id, words->catcher);
     }
     if (status != PPM_STATUS_OK || !(given & (MATERIAL | PRIORITY))) return status;
     const ppm_mesh_id mesh = ppm_scene_instance_mesh(setup->scene, id);

@@ -100,7 +100,8 @@ enum {
     PPM_LAYER_CRYPTO_MATERIAL = 24,
     PPM_LAYER_CRYPTO_ASSET = 25,
     PPM_LAYER_LIGHT_VARIANCE = 26, /* as VARIANCE, of DIFFUSE_DIRECT .. VOLUME: a layer for each */
-    PPM_LAYER_KINDS = 27
+    PPM_LAYER_CATCHER = 27,        /* catchers with all light on them; alpha is their coverage */
+    PPM_LAYER_KINDS = 28
 };
 #define PPM_LAYER_BIT(kind) (UINT64_C(1) << (kind))
 
@@ -205,6 +206,15 @@ typedef struct ppm_render_stats {
 
 /* Not while another thread is in ppm_render_advance. */
 PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats);
+
+/* Gives the session what its catchers look like alone: the layer PPM_LAYER_CATCHER of a session of
+ * the same camera, size and crop, made while ppm_scene_show_catchers_alone was in effect. From then
+ * on, of what the camera sees of catchers, the picture holds what light all else adds, with alpha
+ * for what it takes away: over the plate the picture is what it would be without this call, over a
+ * photograph of the same things it is the photograph with all else in it. The copied values are
+ * value_count = 4 * width * height floats. Layers stay as they are. Returns OK, INVALID_ARGUMENT,
+ * WRONG_STATE (no catcher in the scene), OUT_OF_MEMORY. */
+PPM_API ppm_status ppm_render_set_plate(ppm_render *render, const float *rgba, size_t value_count);
 
 /* Copies the picture so far: 4 * width * height floats (with a crop, of its pixels only), RGBA, row
  * 0 on top, in the working space of the scene's colour (scene-linear), alpha premultiplied.

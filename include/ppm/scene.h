@@ -273,6 +273,7 @@ typedef struct ppm_instance_desc {
     const char *asset;       /* name of the thing that it is a part of (Cryptomatte's asset); NULL:
                                 its own name */
     const char *light_group; /* of what its emissive surfaces shine; NULL or "": none is given */
+    uint32_t is_catcher;     /* non-zero: as ppm_scene_set_instance_catcher */
 } ppm_instance_desc;
 
 /* Returns OK, INVALID_ARGUMENT (unknown mesh, a transform that is not finite), OUT_OF_MEMORY,
@@ -296,6 +297,15 @@ PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
 /* Whether the instance is there at all: for rays, light and bounds; it is when added. */
 PPM_API ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id,
                                                   uint32_t is_visible);
+/* Catchers stand for things that are in a photograph: the picture shows only the light that all
+ * else adds to them and takes from them (ppm_render_set_plate, docs/compositing.md). */
+PPM_API ppm_status ppm_scene_set_instance_catcher(ppm_scene *scene, ppm_instance_id id,
+                                                  uint32_t is_catcher);
+/* Catchers that are visible. */
+PPM_API uint32_t ppm_scene_catcher_count(const ppm_scene *scene);
+/* Non-zero: of all instances only catchers and those that shine are there, until it is called with
+ * 0. All light is thus that of the photograph. */
+PPM_API ppm_status ppm_scene_show_catchers_alone(ppm_scene *scene, uint32_t is_alone);
 /* New vertices of one primitive: positions, normals, tangents and motion_steps of desc, and those
  * of its colors and uvs that are not NULL and that the primitive has had; its vertex_count must be
  * what it was, all else is not used. */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catchers.h"
 #include "choose.h"
 #include "clock.h"
 #include "setup.h"
@@ -209,6 +210,7 @@ int input_set_moment(cli_input *input, cli_console *console, const ppm_color *co
     if (is_first) {
         result = exit_status_of(import(input, color, context), EXIT_INPUT);
         if (result == EXIT_DONE) result = apply_setup(input, options, picture->has_frame);
+        if (result == EXIT_DONE) result = catchers_choose(console, input->scene, options);
         if (result == EXIT_DONE) {
             result = exit_status_of(setup_surroundings(input->scene, options), EXIT_INPUT);
         }

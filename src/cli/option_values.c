@@ -221,6 +221,9 @@ int option_store_own(const option_table *table, const option_row *row, const cha
     case VALUE_OUTPUT:
         all->outputs[all->output_count++] = text;
         return EXIT_DONE;
+    case VALUE_CATCHER:
+        all->catchers[all->catcher_count++] = text;
+        return EXIT_DONE;
     case VALUE_TEXTURE_FOLDER:
         all->texture_folders[all->texture_folder_count++] = text;
         return EXIT_DONE;

@@ -17,6 +17,7 @@ enum {
     VALUE_FRAME,               /* frame_choice: one */
     VALUE_FRAMES,              /* frame_choice: several */
     VALUE_TEXTURE_FOLDER,      /* one more of the texture_folders */
+    VALUE_CATCHER,             /* one more of the catchers */
     VALUE_TEXTURE_SPACE,       /* one more of the texture spaces */
     VALUE_LIST,                /* int32_t, from a list of names, may be missing; and the action */
     VALUE_LAYERS,              /* uint64_t: bits of the layers that a list names */

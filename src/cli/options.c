@@ -212,6 +212,10 @@ static const option_row rows[] = {
              "With --aov caustics one more for the caustics of each"},
     {"transparent", 0, OPTION_SET, FIELD(is_transparent), .set = 1,
      .help = "alpha is 0 where the camera sees the environment"},
+    {"catcher", 0, VALUE_CATCHER, .argument = "NODE",
+     .help = "a thing of a photograph, to put all else into it: the picture\n"
+             "holds what light it gets and loses, with alpha; may be\n"
+             "repeated. Implies --transparent"},
     {"normals", 0, OPTION_CHOICE, FIELD(normals_of_camera), .choices = normals, .argument = "SPACE",
      .help = "of the layer normal: world, camera (default: world)"},
     {"follow-specular", 0, OPTION_SET, FIELD(follows_specular), .set = 1,
@@ -446,7 +450,9 @@ int cli_options_parse(int argc, char **argv, cli_options *out_options)
     out_options->outputs = calloc((size_t)argc + 1, sizeof *out_options->outputs);
     out_options->texture_folders = calloc((size_t)argc + 1, sizeof *out_options->texture_folders);
     out_options->texture_spaces = calloc((size_t)argc + 1, sizeof *out_options->texture_spaces);
-    if (!out_options->outputs || !out_options->texture_folders || !out_options->texture_spaces) {
+    out_options->catchers = calloc((size_t)argc + 1, sizeof *out_options->catchers);
+    if (!out_options->outputs || !out_options->texture_folders || !out_options->texture_spaces ||
+        !out_options->catchers) {
         fputs("ppm-render: error: out of memory\n", stderr);
         return EXIT_RESOURCES;
     }
@@ -471,6 +477,7 @@ static int take_setup(int argc, char **argv, const ppm_setup *setup, const cli_o
     free_patterns(options);
     *options = (cli_options){.outputs = words->outputs,
                              .texture_folders = words->texture_folders,
+                             .catchers = words->catchers,
                              .texture_spaces = words->texture_spaces};
     int status = setup_file_store(&table, setup, words, options);
     optind = 0; /* glibc: begin again */
@@ -501,5 +508,7 @@ void cli_options_deinit(cli_options *options)
     options->texture_spaces = NULL;
     options->outputs = NULL;
     free(options->texture_folders);
+    free(options->catchers);
     options->texture_folders = NULL;
+    options->catchers = NULL;
 }

@@ -127,6 +127,8 @@ typedef struct cli_options {
     int32_t up;                   /* PPM_UP_ */
     const char **texture_folders; /* room for one per word of argv */
     size_t texture_folder_count;
+    const char **catchers; /* room for one per word of argv */
+    size_t catcher_count;
 
     uint64_t layers;      /* PPM_LAYER_BIT of each kind */
     int32_t light_groups; /* PPM_LIGHT_GROUPS_; 0: not said */

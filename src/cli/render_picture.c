@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "brightness.h"
+#include "catchers.h"
 #include "clock.h"
 #include "setup.h"
 #include "signals.h"
@@ -18,7 +19,11 @@ int picture_prepare(const picture_task *task, ppm_render **out_render)
     if (result != EXIT_DONE) return result;
     const ppm_status usable = ppm_render_options_resolve(task->scene, &wanted, &resolved);
     if (usable != PPM_STATUS_OK) return exit_status_of(usable, EXIT_USAGE);
-    const ppm_status status = ppm_render_create(task->scene, &wanted, out_render);
+    if (task->is_plate) wanted.layers = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
+    ppm_status status = ppm_render_create(task->scene, &wanted, out_render);
+    if (status == PPM_STATUS_OK && task->plate) {
+        status = ppm_render_set_plate(*out_render, task->plate, task->plate_count);
+    }
     return exit_status_of(status, EXIT_INPUT); /* WRONG_STATE: nothing in it to render */
 }
 
@@ -35,6 +40,14 @@ static void say_what_begins(cli_console *console, const ppm_render *render)
                     whole, (unsigned long long)options->seed);
 }
 
+/* Of the time that is given, the plate takes a third: its scene is the simpler one. */
+static double seconds_of(const picture_task *task)
+{
+    const double seconds = task->options->seconds;
+    if (task->is_plate) return seconds / 3.0;
+    return task->plate ? seconds * 2.0 / 3.0 : seconds;
+}
+
 /* Epochs are whole passes. */
 static uint64_t pass_limit(const cli_options *cli, const ppm_render *render)
 {
@@ -45,6 +58,12 @@ static uint64_t pass_limit(const cli_options *cli, const ppm_render *render)
     return cli->epochs * per_epoch;
 }
 
+/* Of a sequence, or of catchers alone. */
+static bool is_quiet_start(const picture_task *task)
+{
+    return task->is_whole_or_nothing || task->is_plate;
+}
+
 /* After a finished pass. */
 static void show_and_refresh(const picture_task *task, ppm_render *render, cli_progress *progress,
                              double elapsed)
@@ -52,18 +71,18 @@ static void show_and_refresh(const picture_task *task, ppm_render *render, cli_p
     ppm_render_stats stats = {.size = sizeof stats};
     if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return;
     progress_show(progress, task->console, &stats, elapsed);
-    if (!task->is_whole_or_nothing) outputs_refresh(task->outputs, render, elapsed);
+    if (!is_quiet_start(task)) outputs_refresh(task->outputs, render, elapsed);
 }
 
 static void begin_passes(const picture_task *task, ppm_render *render, cli_progress *progress,
                          char *label, size_t label_size)
 {
-    progress_init(progress, pass_limit(task->options, render), task->options->seconds);
+    progress_init(progress, pass_limit(task->options, render), seconds_of(task));
     if (task->label) {
         snprintf(label, label_size, "%s  ", task->label);
         progress_set_sequence(progress, label, task->pictures_after, task->seconds_per_picture);
     }
-    if (task->is_whole_or_nothing) {
+    if (is_quiet_start(task)) {
         signals_enter_passes(render);
     } else {
         signals_enter_first_pass(render);
@@ -79,7 +98,7 @@ static int run_passes(const picture_task *task, ppm_render *render, uint64_t *ou
     cli_progress progress;
     begin_passes(task, render, &progress, label, sizeof label);
     const double begin = clock_seconds();
-    const bool may_be_empty = task->is_whole_or_nothing;
+    const bool may_be_empty = is_quiet_start(task);
     ppm_status status = PPM_STATUS_OK;
     uint64_t passes = 0;
     while (!((passes > 0 || may_be_empty) && signals_stop_requested())) {
@@ -139,4 +158,23 @@ int picture_render(const picture_task *task, ppm_render *render, picture_result 
         brightness_advise(task->console, render, task->options->exposure_ev);
     }
     return status;
+}
+
+int picture_render_plate(const picture_task *task, float **out_plate, size_t *out_count)
+{
+    picture_task plate_task = *task;
+    plate_task.is_plate = true;
+    plate_task.label = "catchers alone";
+    ppm_render *render = NULL;
+    uint64_t passes = 0;
+    bool is_whole = false;
+    *out_plate = NULL;
+    if (ppm_scene_show_catchers_alone(task->scene, 1) != PPM_STATUS_OK) return EXIT_RESOURCES;
+    int result = picture_prepare(&plate_task, &render);
+    if (result == EXIT_DONE) result = run_passes(&plate_task, render, &passes, &is_whole);
+    if (result == EXIT_DONE && is_whole) result = catchers_read(render, out_plate, out_count);
+    signals_leave_picture();
+    ppm_render_destroy(render);
+    ppm_scene_show_catchers_alone(task->scene, 0);
+    return result;
 }

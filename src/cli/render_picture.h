@@ -21,6 +21,9 @@ typedef struct picture_task {
     const char *label;          /* of a picture in a sequence; NULL for one alone */
     uint64_t pictures_after;    /* that are still to be rendered */
     double seconds_per_picture; /* of those before; 0: none */
+    const float *plate;         /* of its catchers alone; NULL: there are none */
+    size_t plate_count;         /* values */
+    bool is_plate;              /* this is that */
 } picture_task;
 
 typedef struct picture_result {
@@ -32,6 +35,10 @@ typedef struct picture_result {
 
 /* Makes the session of a picture. Returns an exit status; what is wrong has been said. */
 int picture_prepare(const picture_task *task, ppm_render **out_render);
+
+/* Renders the scene's catchers alone: *out_plate is to be freed, and NULL where a signal stopped
+ * it. Returns an exit status; what is wrong has been said. */
+int picture_render_plate(const picture_task *task, float **out_plate, size_t *out_count);
 
 /* Renders and writes. The session stays with the caller, who leaves the step of the signals before
  * destroying it. Returns an exit status; what is wrong has been said. */

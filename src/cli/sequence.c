@@ -3,6 +3,7 @@
  */
 #include "sequence.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "auto_view.h"
@@ -71,13 +72,28 @@ static int record(const cli_sequence *s, const picture_task *task, const ppm_ren
     return stats_add(s->stats, s->console, &source);
 }
 
+/* The catchers alone, where there are any. False: there is to be no picture. */
+static bool render_plate(picture_task *task, float **out_plate, int *result)
+{
+    *out_plate = NULL;
+    if (ppm_scene_catcher_count(task->scene) == 0) return true;
+    *result = picture_render_plate(task, out_plate, &task->plate_count);
+    task->plate = *out_plate;
+    return *result == EXIT_DONE && *out_plate;
+}
+
 /* A picture that could not be written has its statistics all the same. */
-static int render_and_record(const cli_sequence *s, const picture_task *task, run_state *state)
+static int render_and_record(const cli_sequence *s, picture_task *task, run_state *state)
 {
     ppm_render *render = NULL;
     picture_result done = {0};
-    int result = picture_prepare(task, &render);
-    if (result == EXIT_DONE) result = picture_render(task, render, &done);
+    int result = EXIT_DONE;
+    float *plate;
+    if (render_plate(task, &plate, &result)) {
+        result = picture_prepare(task, &render);
+        if (result == EXIT_DONE) result = picture_render(task, render, &done);
+    }
+    free(plate);
     if (done.passes > 0 && !done.is_dropped) {
         const int recorded = record(s, task, render, state);
         if (result == EXIT_DONE) result = recorded;
@@ -107,7 +123,7 @@ static int render_one(const cli_sequence *s, const cli_picture *picture, run_sta
     if (state->left > 0) state->left--;
     cli_picture shown = *picture; /* by the setup's camera, where nothing says another */
     if (shown.camera == 0) shown.camera = ppm_setup_camera(s->input->setup);
-    const picture_task task = {
+    picture_task task = {
         .console = s->console,
         .options = s->options,
         .picture = &shown,

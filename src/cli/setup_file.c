@@ -53,6 +53,7 @@ static const char *refusal(const char *name)
         {"ocio", files},
         {"texture-path", files},
         {"texture-space", files},
+        {"catcher", "the section \"nodes\" has \"catcher\" for it"},
         {"list", talk},
         {"list-views", talk},
         {"quiet", talk},

@@ -92,8 +92,8 @@ static void add_environment(eye_path *path, const ppmi_eye_history *history, ppm
 static void add_backdrop(eye_path *path, ppmi_vec3 direction, ppmi_vec3 throughput)
 {
     const ppmi_light_sink *sink = path->sink;
-    if (sink && sink->seen_through) {
-        *sink->seen_through += vec3_mean(throughput);
+    if (sink && sink->is_transparent) {
+        sink->seen->through += vec3_mean(throughput);
         return;
     }
     const ppmi_vec3 radiance = ppmi_lights_backdrop(path->walker->world->lights, direction);
@@ -406,6 +406,9 @@ static bool arrive(eye_path *path, eye_branch *branch, eye_vertex *at)
     }
     branch->cone_width += path->cone_spread * at->vertex.distance;
     if (arrival == PPMI_AT_SURFACE) {
+        if (branch->depth == 0 && path->sink) {
+            ppmi_light_sink_see(path->sink, walker->world, &at->vertex);
+        }
         add_emission(
             path, &path->light_history, &at->vertex, branch->light_throughput,
             ppmi_walk_emission(walker, &at->vertex, branch->ray.direction, &branch->origin));

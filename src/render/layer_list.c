@@ -38,6 +38,7 @@ static const layer_row rows[PPM_LAYER_KINDS] = {
     [PPM_LAYER_CRYPTO_OBJECT] = {"CryptoObject", 4, {"R", "G", "B", "A"}, true},
     [PPM_LAYER_CRYPTO_MATERIAL] = {"CryptoMaterial", 4, {"R", "G", "B", "A"}, true},
     [PPM_LAYER_CRYPTO_ASSET] = {"CryptoAsset", 4, {"R", "G", "B", "A"}, true},
+    [PPM_LAYER_CATCHER] = {"catcher", 4, {"R", "G", "B", "A"}, false},
     [PPM_LAYER_LIGHT_VARIANCE] = {"variance", 3, {"R", "G", "B"}, true},
 };
 
@@ -63,6 +64,7 @@ static uint32_t count_of(const ppmi_job *job, int32_t kind)
     if (!(job->options->layers & PPM_LAYER_BIT(kind))) return 0;
     if (is_crypto(kind)) return job->options->cryptomatte_ranks / 2;
     if (is_of_group(kind)) return job->groups ? job->groups->count : 0;
+    if (kind == PPM_LAYER_CATCHER) return ppm_scene_catcher_count(job->world.scene) > 0;
     if (kind == PPM_LAYER_LIGHT_VARIANCE) return PPM_LAYER_VOLUME; /* classes count from 1 */
     return 1;
 }

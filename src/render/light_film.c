@@ -46,6 +46,11 @@ static size_t place(ppmi_light_record *record, bool is_kept, size_t floats)
     return at;
 }
 
+static bool keeps_catchers(const ppmi_job *job)
+{
+    return wants(job, PPM_LAYER_CATCHER) || ppm_scene_catcher_count(job->world.scene) > 0;
+}
+
 static ppmi_light_record lay_out(const ppmi_job *job, const ppmi_light_planes *planes)
 {
     ppmi_light_record record = {0};
@@ -57,6 +62,7 @@ static ppmi_light_record lay_out(const ppmi_job *job, const ppmi_light_planes *p
         place(&record, wants(job, PPM_LAYER_LIGHT_VARIANCE), 3 * (size_t)CLASSES);
     record.density = place(&record, wants(job, PPM_LAYER_PHOTON_DENSITY), 1);
     record.radius = place(&record, wants(job, PPM_LAYER_RADIUS), 1);
+    record.catcher = place(&record, keeps_catchers(job), 4);
     record.seen_through = place(&record, job->options->is_transparent != 0, 1);
     return record;
 }
@@ -97,10 +103,9 @@ ppmi_vec3 *ppmi_light_film_clear_scratch(const ppmi_light_film *film)
 }
 
 ppmi_light_sink ppmi_light_film_sink(const ppmi_light_film *film, ppmi_vec3 *planes,
-                                     float *seen_through)
+                                     ppmi_light_seen *seen)
 {
-    const bool is_transparent = film->record.seen_through != SIZE_MAX;
-    return (ppmi_light_sink){&film->planes, planes, is_transparent ? seen_through : NULL};
+    return (ppmi_light_sink){&film->planes, planes, seen, film->record.seen_through != SIZE_MAX};
 }
 
 /* The sum of squared differences from the mean (Welford 1962), of which sum is the sum before x. */
@@ -144,7 +149,11 @@ void ppmi_light_film_add(ppmi_light_film *film, size_t pixel, uint64_t pass,
     }
     if (at->density != SIZE_MAX) record[at->density] += light->photons_per_area;
     if (at->radius != SIZE_MAX && light->radius_m > 0.0f) record[at->radius] = light->radius_m;
-    if (at->seen_through != SIZE_MAX) record[at->seen_through] += light->seen_through;
+    if (at->seen_through != SIZE_MAX) record[at->seen_through] += light->seen.through;
+    if (at->catcher != SIZE_MAX && light->seen.is_catcher) {
+        add_to(record + at->catcher, light->combined);
+        record[at->catcher + 3] += 1.0f;
+    }
 }
 
 void ppmi_light_film_commit(ppmi_light_film *film)
@@ -177,6 +186,8 @@ static size_t place_of(const ppmi_light_film *film, int32_t kind, uint32_t numbe
         return at->variance;
     case PPM_LAYER_LIGHT_VARIANCE:
         return at->class_variance + 3 * (size_t)number;
+    case PPM_LAYER_CATCHER:
+        return at->catcher;
     case PPM_LAYER_PHOTON_DENSITY:
         return at->density;
     case PPM_LAYER_RADIUS:
@@ -205,7 +216,8 @@ void ppmi_light_film_read(const ppmi_job *job, const ppmi_light_film *film, int3
                           uint32_t number, uint64_t passes, float *values)
 {
     const bool is_single = kind == PPM_LAYER_PHOTON_DENSITY || kind == PPM_LAYER_RADIUS;
-    const size_t channels = is_single ? 1 : 3, pixels = ppmi_film_pixel_count(&job->film);
+    const size_t channels = is_single ? 1 : kind == PPM_LAYER_CATCHER ? 4 : 3;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
     const size_t place = place_of(film, kind, number);
     const float scale = scale_of(kind, passes);
     for (size_t i = 0; i < pixels; i++) {

@@ -14,7 +14,7 @@
 
 /* Where a pixel's values are, in floats; SIZE_MAX: is not kept. */
 typedef struct ppmi_light_record {
-    size_t planes, combined, variance, class_variance, density, radius, seen_through;
+    size_t planes, combined, variance, class_variance, density, radius, seen_through, catcher;
     size_t size;
 } ppmi_light_record;
 
@@ -30,7 +30,7 @@ typedef struct ppmi_light_film {
 typedef struct ppmi_light_pass {
     const ppmi_vec3 *planes;
     ppmi_vec3 combined;
-    float seen_through;     /* share of the path that sees the environment straight */
+    ppmi_light_seen seen;   /* by the pixel's path */
     float photons_per_area; /* 1/m2 */
     float radius_m;         /* 0: it had no visible point */
 } ppmi_light_pass;
@@ -63,7 +63,7 @@ static inline ppmi_vec3 *ppmi_light_film_set(const ppmi_light_film *film, ppmi_v
 
 /* A sink into planes of a pixel. */
 ppmi_light_sink ppmi_light_film_sink(const ppmi_light_film *film, ppmi_vec3 *planes,
-                                     float *seen_through);
+                                     ppmi_light_seen *seen);
 
 /* Adds pass number pass (from 0) to a pixel. Each pixel once a pass, by any thread; committed when
  * the pass is finished. */

@@ -89,8 +89,8 @@ static ppmi_arrival walk(path_trace *path, ppmi_ray ray, uint32_t depth, ppmi_ve
 static void see_backdrop(path_trace *path, ppmi_vec3 direction, ppmi_vec3 throughput)
 {
     const ppmi_light_sink *sink = path->sink;
-    if (sink && sink->seen_through) {
-        *sink->seen_through += vec3_mean(throughput);
+    if (sink && sink->is_transparent) {
+        sink->seen->through += vec3_mean(throughput);
         return;
     }
     const ppmi_vec3 light =
@@ -153,6 +153,7 @@ static void trace_path(path_trace *path, ppmi_ray ray, uint32_t max_depth)
             return;
         }
         if (arrival == PPMI_AT_SURFACE) {
+            if (depth == 0 && path->sink) ppmi_light_sink_see(path->sink, walker->world, &vertex);
             add_emission(path, &vertex, ray.direction, throughput, &origin);
         }
         if (!survives(walker, &throughput, eta_scale, depth)) return;
@@ -190,7 +191,7 @@ static ppmi_vec3 render_pixel(const ppmi_job *job, path_state *state, ppmi_walke
     ppmi_vec3 *planes = NULL;
     if (ppmi_light_film_is_kept(&state->layers)) {
         planes = ppmi_light_film_clear_scratch(&state->layers);
-        sink = ppmi_light_film_sink(&state->layers, planes, &pass->seen_through);
+        sink = ppmi_light_film_sink(&state->layers, planes, &pass->seen);
         path.sink = &sink;
         pass->planes = planes;
     }

@@ -26,7 +26,7 @@ typedef struct ppm_state {
     ppmi_photon_pass photons;
     ppmi_light_film layers;
     ppmi_vec3 *direct_planes; /* as direct, of the layers: a set a pixel */
-    float *seen_through;      /* per pixel, of this epoch's eye paths; or NULL */
+    ppmi_light_seen *seen;    /* per pixel, of this epoch's eye paths; or NULL */
     uint64_t pass;            /* that is gathered now */
     double past_emitted;      /* photons of past epochs */
     double epoch_emitted;     /* of this one */
@@ -56,7 +56,7 @@ static void ppm_destroy(const ppmi_job *job, void *opaque)
     ppmi_free(job->context, state->direct);
     ppmi_free(job->context, state->past);
     ppmi_free(job->context, state->direct_planes);
-    ppmi_free(job->context, state->seen_through);
+    ppmi_free(job->context, state->seen);
     ppmi_light_film_deinit(job, &state->layers);
     ppmi_photon_pass_deinit(job, &state->photons);
     ppmi_free(job->context, state);
@@ -69,8 +69,8 @@ static ppm_status create_layers(const ppmi_job *job, ppm_state *state)
     const size_t pixels = ppmi_film_pixel_count(&job->film);
     const size_t set = state->layers.planes.count * sizeof *state->direct_planes;
     state->direct_planes = ppmi_alloc_zeroed(job->context, pixels + 1, set > 0 ? set : 1);
-    state->seen_through = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->seen_through);
-    if (state->direct_planes && state->seen_through) return PPM_STATUS_OK;
+    state->seen = ppmi_alloc_zeroed(job->context, pixels, sizeof *state->seen);
+    if (state->direct_planes && state->seen) return PPM_STATUS_OK;
     return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: layers");
 }
 
@@ -113,8 +113,8 @@ static ppmi_light_sink sink_of(ppm_state *state, size_t pixel)
     const size_t count = state->layers.planes.count;
     ppmi_vec3 *planes = state->direct_planes + pixel * count;
     memset(planes, 0, count * sizeof *planes);
-    state->seen_through[pixel] = 0.0f;
-    return ppmi_light_film_sink(&state->layers, planes, &state->seen_through[pixel]);
+    state->seen[pixel] = (ppmi_light_seen){0};
+    return ppmi_light_film_sink(&state->layers, planes, &state->seen[pixel]);
 }
 
 /* The visible points of a tile, pixel by pixel. */
@@ -287,7 +287,7 @@ static void start_layers(const ppm_state *state, size_t pixel, ppmi_pixel_layers
     ppmi_vec3 *scratch = ppmi_light_film_clear_scratch(&state->layers);
     *layers = (ppmi_pixel_layers){
         .film = &state->layers,
-        .pass = {.combined = state->direct[pixel], .seen_through = state->seen_through[pixel]},
+        .pass = {.combined = state->direct[pixel], .seen = state->seen[pixel]},
         .planes = scratch,
         .gathered = ppmi_light_film_set(&state->layers, scratch, 1),
     };

@@ -2,8 +2,10 @@
 #include "render/render.h"
 
 #include <omp.h>
+#include <string.h>
 
 #include "photon/eye.h"
+#include "render/catcher.h"
 #include "render/features.h"
 #include "render/integrator.h"
 #include "render/layer_list.h"
@@ -27,6 +29,7 @@ struct ppm_render {
     ppmi_job job;
     ppmi_light_groups *groups;
     ppmi_layer_list layers;
+    float *plate;            /* RGBA of catchers alone; NULL: not given */
     ppmi_features *features; /* NULL: none is wanted */
     ppm_render_stats stats;
     atomic_bool cancel;
@@ -218,6 +221,7 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     if (resolved.schedule == PPM_SCHEDULE_DEFAULT) resolved.schedule = PPM_SCHEDULE_PROGRESSIVE;
     if (resolved.direct == PPM_DIRECT_DEFAULT) resolved.direct = PPM_DIRECT_SAMPLE;
     if (resolved.aim == PPM_AIM_DEFAULT) resolved.aim = PPM_AIM_LEARNT;
+    if (ppm_scene_catcher_count(scene) > 0) resolved.is_transparent = 1;
     if (resolved.cryptomatte_ranks == 0) resolved.cryptomatte_ranks = 6;
     if (resolved.light_groups == PPM_LIGHT_GROUPS_DEFAULT) {
         resolved.light_groups = PPM_LIGHT_GROUPS_GIVEN;
@@ -484,6 +488,7 @@ void ppm_render_destroy(ppm_render *render)
     ppmi_features_destroy(&render->job, render->features);
     ppmi_layer_list_deinit(render->context, &render->layers);
     ppmi_light_groups_destroy(render->context, render->groups);
+    ppmi_free(render->context, render->plate);
     ppmi_contacts_destroy(render->context, render->contacts);
     ppmi_lights_destroy(render->lights);
     ppmi_accel_destroy(render->accel);
@@ -532,6 +537,21 @@ ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_
     return PPM_STATUS_OK;
 }
 
+static ppm_status take_plate(const ppm_render *render, float *rgba)
+{
+    const size_t pixels = ppmi_film_pixel_count(&render->job.film);
+    float *catchers = ppmi_alloc(render->context, pixels, 4 * sizeof *catchers);
+    if (!catchers) {
+        return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: %zu pixels",
+                         pixels);
+    }
+    render->integrator->read_layer(&render->job, render->state, PPM_LAYER_CATCHER, 0,
+                                   render->stats.passes, catchers);
+    ppmi_catcher_take_plate(catchers, render->plate, pixels, rgba);
+    ppmi_free(render->context, catchers);
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t rgba_count)
 {
     if (!render || !rgba) return PPM_STATUS_INVALID_ARGUMENT;
@@ -544,6 +564,28 @@ ppm_status ppm_render_read_image(const ppm_render *render, float *rgba, size_t r
         return ppmi_fail(render->context, PPM_STATUS_WRONG_STATE, "no pass is finished yet");
     }
     render->integrator->resolve(&render->job, render->state, render->stats.passes, rgba);
+    return render->plate ? take_plate(render, rgba) : PPM_STATUS_OK;
+}
+
+ppm_status ppm_render_set_plate(ppm_render *render, const float *rgba, size_t value_count)
+{
+    if (!render || !rgba) return PPM_STATUS_INVALID_ARGUMENT;
+    const size_t needed = 4 * ppmi_film_pixel_count(&render->job.film);
+    if (value_count != needed) {
+        return ppmi_fail(render->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "the picture has %zu floats, the plate %zu", needed, value_count);
+    }
+    if (ppm_scene_catcher_count(render->scene) == 0) {
+        return ppmi_fail(render->context, PPM_STATUS_WRONG_STATE,
+                         "a plate needs a catcher in the scene");
+    }
+    float *plate = ppmi_alloc(render->context, needed, sizeof *plate);
+    if (!plate) {
+        return ppmi_fail(render->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: the plate");
+    }
+    memcpy(plate, rgba, needed * sizeof *plate);
+    ppmi_free(render->context, render->plate);
+    render->plate = plate;
     return PPM_STATUS_OK;
 }
 

@@ -49,7 +49,7 @@ typedef struct tile_eye {
     uint32_t first_point[PPMI_TILE_PIXELS + 1];
     const ppmi_light_film *layers; /* NULL: none are kept */
     ppmi_vec3 *planes;             /* a set a pixel, and one for gathering */
-    float seen_through[PPMI_TILE_PIXELS];
+    ppmi_light_seen seen[PPMI_TILE_PIXELS];
 } tile_eye;
 
 static void pixels_deinit(const ppmi_job *job, sppm_pixels *pixels)
@@ -133,9 +133,9 @@ static bool is_memoryless(const ppmi_job *job)
 /* Where the layers of a pixel's path go. */
 static ppmi_light_sink sink_of(tile_eye *eye, uint32_t slot)
 {
-    eye->seen_through[slot] = 0.0f;
+    eye->seen[slot] = (ppmi_light_seen){0};
     return ppmi_light_film_sink(eye->layers, ppmi_light_film_set(eye->layers, eye->planes, slot),
-                                &eye->seen_through[slot]);
+                                &eye->seen[slot]);
 }
 
 /* One path a pixel. */
@@ -301,7 +301,7 @@ static void start_layers(const tile_eye *eye, uint32_t slot, ppmi_pixel_layers *
 {
     *layers = (ppmi_pixel_layers){
         .film = eye->layers,
-        .pass = {.combined = eye->radiance[slot], .seen_through = eye->seen_through[slot]},
+        .pass = {.combined = eye->radiance[slot], .seen = eye->seen[slot]},
         .planes = ppmi_light_film_set(eye->layers, eye->planes, slot),
         .gathered = ppmi_light_film_set(eye->layers, eye->planes, PPMI_TILE_PIXELS),
     };

@@ -136,6 +136,7 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
         return fail_memory(scene);
     }
     instance->mesh = desc->mesh - 1;
+    instance->is_catcher = desc->is_catcher != 0;
     *out_id = ++scene->instance_count;
     return PPM_STATUS_OK;
 }
@@ -181,5 +182,44 @@ ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id, 
     const ppm_status status = find_instance(scene, id, &instance);
     if (status != PPM_STATUS_OK) return status;
     instance->is_hidden = is_visible == 0;
+    return PPM_STATUS_OK;
+}
+
+ppm_status ppm_scene_set_instance_catcher(ppm_scene *scene, ppm_instance_id id, uint32_t is_catcher)
+{
+    ppmi_instance *instance = NULL;
+    const ppm_status status = find_instance(scene, id, &instance);
+    if (status != PPM_STATUS_OK) return status;
+    instance->is_catcher = is_catcher != 0;
+    return PPM_STATUS_OK;
+}
+
+uint32_t ppm_scene_catcher_count(const ppm_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; scene && i < scene->instance_count; i++) {
+        const ppmi_instance *instance = &scene->instances[i];
+        count += instance->is_catcher && ppmi_instance_is_there(instance);
+    }
+    return count;
+}
+
+static bool shines(const ppm_scene *scene, const ppmi_instance *instance)
+{
+    const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        if (scene->materials[mesh->primitives[i].material].emits) return true;
+    }
+    return false;
+}
+
+ppm_status ppm_scene_show_catchers_alone(ppm_scene *scene, uint32_t is_alone)
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        ppmi_instance *instance = &scene->instances[i];
+        instance->is_left_out = is_alone != 0 && !instance->is_catcher && !shines(scene, instance);
+    }
     return PPM_STATUS_OK;
 }

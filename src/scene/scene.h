@@ -95,17 +95,19 @@ typedef struct ppmi_instance {
     bool is_mirrored;        /* to_world has a negative determinant: the winding is reversed */
     bool is_hidden;          /* by the caller */
     bool is_singular;        /* flat at all steps: there is nothing to see */
-    uint32_t motion_steps;   /* 1: at rest */
-    ppmi_transform *motion;  /* or NULL: at rest */
-    ppmi_vec3 given_origin;  /* of to_world */
-    char *asset;             /* never NULL */
-    char *light_group;       /* NULL: none is given */
+    bool is_catcher;
+    bool is_left_out;       /* while catchers are shown alone */
+    uint32_t motion_steps;  /* 1: at rest */
+    ppmi_transform *motion; /* or NULL: at rest */
+    ppmi_vec3 given_origin; /* of to_world */
+    char *asset;            /* never NULL */
+    char *light_group;      /* NULL: none is given */
 } ppmi_instance;
 
 /* Whether rays can meet the instance. */
 static inline bool ppmi_instance_is_there(const ppmi_instance *instance)
 {
-    return !instance->is_hidden && !instance->is_singular;
+    return !instance->is_hidden && !instance->is_singular && !instance->is_left_out;
 }
 
 /* Where a camera stands and how it is turned: orthonormal. */

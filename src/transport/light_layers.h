@@ -37,12 +37,18 @@ typedef struct ppmi_light_planes {
     uint32_t count;
 } ppmi_light_planes;
 
+/* What the camera sees straight by a path. */
+typedef struct ppmi_light_seen {
+    float through;   /* share of the path that sees the environment */
+    bool is_catcher; /* its first surface is a catcher's */
+} ppmi_light_seen;
+
 /* Where a path's light goes beside the picture. */
 typedef struct ppmi_light_sink {
     const ppmi_light_planes *planes;
-    ppmi_vec3 *values;   /* planes->count, of the pixel */
-    float *seen_through; /* gets the share of the path that sees the environment straight: it is
-                            then transparent, and its light left out; or NULL */
+    ppmi_vec3 *values;     /* planes->count, of the pixel */
+    ppmi_light_seen *seen; /* filled in */
+    bool is_transparent;   /* the environment that is seen straight is left out */
 } ppmi_light_sink;
 
 /* ---- eye paths ------------------------------------------------------------------------------- */
@@ -74,6 +80,13 @@ static inline int32_t ppmi_eye_history_class(const ppmi_eye_history *history)
 void ppmi_eye_history_scatter(ppmi_eye_history *history, const ppmi_bsdf *bsdf,
                               const ppmi_albedo_table *albedo, ppmi_vec3 wi, uint32_t mask,
                               bool is_delta);
+
+/* The path meets its first surface. */
+static inline void ppmi_light_sink_see(const ppmi_light_sink *sink, const ppmi_world *world,
+                                       const ppmi_vertex *vertex)
+{
+    sink->seen->is_catcher = world->scene->instances[vertex->hit.instance].is_catcher;
+}
 
 /* ---- deposits -------------------------------------------------------------------------------- */
 
