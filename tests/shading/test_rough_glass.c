@@ -105,8 +105,9 @@ static void white_rough_glass_returns_all_light(void **state)
     glass_test test = {.rng = ppmi_rng_start(1, PPMI_STREAM_EYE, 0)};
     for_all(check_is_white, &test);
     family_check(&test.family);
-    /* what multiple scattering returns is drawn by about its own density */
-    assert_true(test.worst < 0.5);
+    /* what multiple scattering returns is drawn by about its own density; by the cosine alone the
+     * squares of the weights would be many times as much */
+    assert_true(test.worst < 1.0);
 }
 
 /* ---- colour -----------------------------------------------------------------------------------
