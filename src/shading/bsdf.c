@@ -104,7 +104,8 @@ static float glass_lost_average(const ppmi_bsdf *bsdf, const ppmi_albedo_table *
  *
  * all that is lost comes back. It is the same both ways if t / (n'^2 M') = t' / (n^2 M), n the
  * index. Fresnel's mean transmittance T has n^2 T = n'^2 T'; so t = T min(1, M' / M). */
-static void make_rough_glass(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+__attribute__((noinline)) static void make_rough_glass(ppmi_bsdf *bsdf,
+                                                       const ppmi_albedo_table *albedo)
 {
     const float eta = bsdf->eta, beyond = bsdf->is_thin ? eta : 1.0f / eta;
     const float here_average = ppmi_max(glass_lost_average(bsdf, albedo, eta), 1e-7f);
@@ -353,8 +354,9 @@ static ppmi_vec3 glass_single_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_tra
                       common * (1.0f - reflectance) * transmitted_scale(bsdf, transport));
 }
 
-static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
-                            ppmi_transport transport)
+__attribute__((noinline)) static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf,
+                                                      const ppmi_albedo_table *albedo, ppmi_vec3 wi,
+                                                      ppmi_transport transport)
 {
     return vec3_add(glass_single_eval(bsdf, wi, transport),
                     glass_multiple_eval(bsdf, albedo, wi, transport));
@@ -390,7 +392,7 @@ static float glass_single_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
            ppmi_ggx_visible_d(bsdf->glass_alpha, bsdf->wo, h) * glass_jacobian(bsdf, folded, h);
 }
 
-static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+__attribute__((noinline)) static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
     return (1.0f - bsdf->glass_lost) * glass_single_pdf(bsdf, wi) +
            bsdf->glass_lost * glass_multiple_pdf(bsdf, wi);

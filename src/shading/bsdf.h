@@ -81,9 +81,6 @@ typedef struct ppmi_bsdf {
     float glass_alpha;
     float eta; /* index on the far side by the one on wo's side */
     bool is_thin;
-    /* rough: what single scattering loses of light from wo, the share of it that comes back on wo's
-     * side, and f by 1 - E(i), for power: back and through */
-    float glass_lost, glass_returned, glass_back, glass_through;
 
     bool is_layered;
 
@@ -101,6 +98,10 @@ typedef struct ppmi_bsdf {
         };
         ppmi_bsdf_layers layers;
     };
+
+    /* Set where GLASS is rough: what single scattering loses of light from wo, the share of it that
+     * comes back on wo's side, and f by 1 - E(i), for power: back and through. */
+    float glass_lost, glass_returned, glass_back, glass_through;
 } ppmi_bsdf;
 
 typedef struct ppmi_bsdf_sample {

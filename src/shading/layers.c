@@ -12,7 +12,7 @@
 #include "shading/sheen.h"
 
 static const float gather_alpha = 0.2f; /* as in bsdf.c */
-static const float coat_f0 = 0.04f;     /* index 1.5 */
+static const float coat_f0 = PPMI_COAT_F0;
 
 static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
 {

@@ -89,10 +89,12 @@ static inline float ppmi_schlick_weight(float cos_theta)
     return m * m * m * m * m;
 }
 
-/* Schlick's Fresnel term of a clearcoat: index 1.5. */
+#define PPMI_COAT_F0 0.04f /* of a clearcoat: index 1.5 */
+
+/* A clearcoat's Fresnel term. */
 static inline float ppmi_coat_fresnel(float cos_theta)
 {
-    return 0.04f + 0.96f * ppmi_schlick_weight(cos_theta);
+    return PPMI_COAT_F0 + (1.0f - PPMI_COAT_F0) * ppmi_schlick_weight(cos_theta);
 }
 
 #endif

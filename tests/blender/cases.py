@@ -685,8 +685,9 @@ CASES = [
     Case(sheen, 0.9, "the exporter takes Velvet for sheen; these are two different lobes"),
     Case(clear_glass, samples=256),
     Case(coloured_glass, samples=256),
-    Case(rough_glass, 0.3, "single scattering at the rough surface loses 2 % in the middle of the "
-         "ball and 17 % at its rim; Cycles' Multiscatter GGX loses nothing", samples=256),
+    Case(rough_glass, 0.3, "Cycles walks from facet to facet and spreads light wider: of a cone of "
+         "32° straight behind the ball its middle shows 0.87, here 0.91. In even light both return "
+         "all", samples=256),
     Case(filled_glass_pale, samples=256),
     Case(filled_glass_dark, 0.5, "Cycles absorbs (1 - colour) × density, the exporter writes what "
          "means -ln(colour) × density", samples=128),

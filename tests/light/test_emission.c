@@ -241,6 +241,25 @@ static void an_emitter_of_part_opacity_sends_that_part(void **state)
     world_close(&world);
 }
 
+/* The mean of Schlick's Fresnel term, weighted by the cosine, is F0 + (1 - F0) / 21. */
+static void an_emitter_under_a_clearcoat_sends_what_the_coat_leaves(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    vec3_store(desc.emission, vec3_splat(4.0f));
+    desc.clearcoat = 1.0f;
+    desc.double_sided = 0;
+    add_quad(test.scene, material_add(test.scene, &desc), vec3_splat(0.0f), vec3(1, 0, 0),
+             vec3(0, 1, 0));
+    world_open(&world, &test);
+    const double left = 4.0 * M_PI * (1.0 - 0.04 - 0.96 / 21.0);
+    const double fluxes[3] = {left, left, left};
+    compare("coated", vec3_splat(0.0f), INFINITY, fluxes);
+    family_check(&family);
+    world_close(&world);
+}
+
 static void a_textured_emitter_sends_the_mean_of_its_texture(void **state)
 {
     (void)state;
@@ -370,6 +389,7 @@ int main(void)
         WITH_SCENE(a_directional_light_lights_a_disk),
         WITH_SCENE(an_emitter_sends_pi_from_each_side),
         WITH_SCENE(an_emitter_of_part_opacity_sends_that_part),
+        WITH_SCENE(an_emitter_under_a_clearcoat_sends_what_the_coat_leaves),
         WITH_SCENE(a_textured_emitter_sends_the_mean_of_its_texture),
         WITH_SCENE(a_constant_environment_fills_the_scene),
         WITH_SCENE(an_environment_image_sends_its_integral),

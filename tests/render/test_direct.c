@@ -187,6 +187,56 @@ static void leaning_shading_normals_agree_between_photons_and_light_samples(void
     family_check(&family);
 }
 
+/* ---- light through a clearcoat --------------------------------------------------------------- */
+
+/* Irradiance at the middle of the floor from a level strip of radiance 1, 1 m above it, 4 m by 0.5
+ * m, under a coat with KHR_materials_clearcoat's Fresnel term. */
+static double coated_irradiance(void)
+{
+    double sum = 0.0;
+    const int steps = 200;
+    for (int i = 0; i < steps * steps; i++) {
+        const double x = 2.0 * (2.0 * (i % steps + 0.5) / steps - 1.0);
+        const double z = 0.25 * (2.0 * (i / steps + 0.5) / steps - 1.0);
+        const double d2 = x * x + z * z + 1.0, cosine = 1.0 / sqrt(d2);
+        sum += cosine * cosine / d2 * (1.0 - 0.04 - 0.96 * pow(1.0 - cosine, 5.0));
+    }
+    return sum * 4.0 * 0.5 / (steps * steps);
+}
+
+/* The eye's paths, light sampling and photons alike. At the ends of the strip the coat holds
+ * back 0.09. Paths end before the coat can return any
+ * of the floor's light. */
+static void light_through_a_clearcoat_is_dimmed_whichever_way_it_is_found(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    vec3_store(desc.emission, vec3_splat(3.0f));
+    vec3_store(desc.base_color, vec3_splat(0.0f));
+    desc.clearcoat = 1.0f;
+    desc.double_sided = 0;
+    add_quad(test.scene, material_add(test.scene, &desc), vec3(-2, 1, -0.25f), vec3(4, 0, 0),
+             vec3(0, 0, 0.5f));
+    look_down(0.0f, 0.0f, 0.05f);
+    const double expected = 3.0 * coated_irradiance() * (double)reflectance / M_PI;
+    for (int way = 0; way < 3; way++) {
+        const bool is_path = way == 0;
+        ppm_render_options options = render_options(
+            is_path ? PPM_INTEGRATOR_PATH : PPM_INTEGRATOR_SPPM, 8, way == 2 ? 10000 : 500);
+        options.alpha = 1.0f; /* the radius stays */
+        options.direct = way == 2 ? PPM_DIRECT_PHOTONS : PPM_DIRECT_SAMPLE;
+        options.radius_m = 0.1f;
+        options.max_depth = 2;
+        const test_mean mean = render_green(test.scene, &options, 24, SEEDS);
+        mean_check_power(&mean, 0.01); /* the coat holds back 0.045 of all */
+        /* the radius reaches to where the irradiance is 1 - 2 r^2 of the middle's at most */
+        family_add_mean(&family, &mean, expected, (is_path ? 0.002 : 0.01) * expected, "way %d",
+                        way);
+    }
+    family_check(&family);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -197,6 +247,7 @@ int main(void)
         WITH_SCENE(a_spot_light_lights_its_cone),
         WITH_SCENE(a_shadow_is_black),
         WITH_SCENE(leaning_shading_normals_agree_between_photons_and_light_samples),
+        WITH_SCENE(light_through_a_clearcoat_is_dimmed_whichever_way_it_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,6 +234,28 @@ static void a_mirrored_instance_emits_from_its_outside(void **state)
     assert_near(ppmi_surface_emission(test.scene, &surface, vec3(0, 0, -1)).x, 0.0, 0.0);
 }
 
+/* KHR_materials_clearcoat: by 1 - clearcoat * Schlick's Fresnel term, index 1.5, on both sides. */
+static void a_clearcoat_dims_the_emission_below_it(void **state)
+{
+    (void)state;
+    static const double cosines[] = {1.0, 0.6, 0.1};
+    ppm_material_desc desc = defaults();
+    desc.emission[0] = 3.0f;
+    desc.clearcoat = 0.8f;
+    desc.clearcoat_roughness = 0.5f;
+    desc.clearcoat_texture.image = one_texel(0.5f, 1.0f, 1.0f, 1.0f);
+    desc.double_sided = 1;
+    place_quad(&desc, NULL, NULL);
+    const ppmi_surface surface = surface_at(0, 0, 0.3f, 0.3f);
+    for (int i = 0; i < 3; i++) {
+        const double c = cosines[i], fresnel = 0.04 + 0.96 * pow(1.0 - c, 5.0);
+        const double expected = 3.0 * (1.0 - 0.8 * 0.5 * fresnel);
+        const ppmi_vec3 front = vec3((float)sqrt(1.0 - c * c), 0.0f, (float)c);
+        assert_near(ppmi_surface_emission(test.scene, &surface, front).x, expected, 1e-5);
+        assert_near(ppmi_surface_emission(test.scene, &surface, vec3_neg(front)).x, expected, 1e-5);
+    }
+}
+
 static void attenuation_follows_beer_and_lambert(void **state)
 {
     (void)state;
@@ -267,6 +289,7 @@ int main(void)
         WITH_SCENE(alpha_follows_its_mode),
         WITH_SCENE(emission_has_one_side_or_two),
         WITH_SCENE(a_mirrored_instance_emits_from_its_outside),
+        WITH_SCENE(a_clearcoat_dims_the_emission_below_it),
         WITH_SCENE(attenuation_follows_beer_and_lambert),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
