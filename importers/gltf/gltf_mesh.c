@@ -8,6 +8,9 @@
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
+/* Arrays of smaller meshes are freed together: one by one they would leave holes in the heap. */
+enum { LARGE_MESH_VERTICES = 1 << 12 };
+
 static const ppmi_gltf_format vec2_format = {2, 2, 2, false};
 static const ppmi_gltf_format vec3_format = {3, 3, 3, false};
 static const ppmi_gltf_format vec4_format = {4, 4, 4, false};
@@ -230,6 +233,14 @@ static void release_array(void *user, const void *array)
     }
 }
 
+static bool is_large(const ppmi_gltf_geometry *all, size_t count)
+{
+    size_t vertices = 0;
+    for (size_t i = 0; i < count; ++i)
+        vertices += all[i].vertex_count;
+    return vertices > LARGE_MESH_VERTICES;
+}
+
 /* Hands the drawable ones of a mesh's primitives to the scene; deform is NULL for one that keeps
  * its shape. */
 static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
@@ -258,7 +269,7 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
         .name = ppmi_gltf_printable(mesh->name, strlen(mesh->name), name, sizeof name),
         .primitive_count = count,
         .primitives = descs,
-        .release = release_array,
+        .release = is_large(all, mesh->primitive_count) ? release_array : NULL,
         .release_user = &h};
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
 }
