@@ -10,6 +10,8 @@
  * could ask for any amount of memory. This is far above what sparse morph targets need. */
 #define MAX_ZERO_ELEMENTS ((size_t)1 << 24)
 
+enum { LARGE_ACCESSOR = 1 << 20 }; /* elements */
+
 /* Elements at a fixed distance, in bytes that are known to be there. */
 typedef struct elements {
     const unsigned char *bytes; /* NULL: zeros */
@@ -171,9 +173,23 @@ static void convert(const conversion *c, const unsigned char *element, size_t in
     }
 }
 
+/* Whether the elements are, byte for byte, what comes out. */
+static bool is_plain(const conversion *c, const elements *from)
+{
+    const bool is_same = c->indices ? c->type == PPMI_GLTF_UNSIGNED_INT
+                                    : c->type == PPMI_GLTF_FLOAT && c->rows == c->components &&
+                                          c->components == c->out_components;
+    return is_same && from->bytes && from->stride == 4 * (size_t)c->out_components;
+}
+
 static void convert_all(const conversion *c, const elements *from)
 {
     static const unsigned char zeros[64];
+    if (is_plain(c, from)) {
+        void *to = c->indices ? (void *)c->indices : (void *)c->floats;
+        memcpy(to, from->bytes, from->count * from->stride);
+        return;
+    }
     for (size_t i = 0; i < from->count; ++i) {
         convert(c, from->bytes ? from->bytes + i * from->stride : zeros, i);
     }
@@ -223,7 +239,10 @@ static ppm_status convert_accessor(ppmi_gltf_reader *reader, const ppmi_gltf_acc
                                    const elements *base, const conversion *c, const char *place)
 {
     convert_all(c, base);
-    return accessor->sparse_count > 0 ? convert_sparse(reader, accessor, c, place) : PPM_STATUS_OK;
+    if (accessor->sparse_count > 0) return convert_sparse(reader, accessor, c, place);
+    /* the pages of the file that were read for it are not needed any more */
+    if (base->count > LARGE_ACCESSOR) ppmi_gltf_forget_files(reader);
+    return PPM_STATUS_OK;
 }
 
 ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const char *place,

@@ -8,7 +8,8 @@
 #include "gltf/gltf_geometry.h"
 #include "gltf/gltf_reader.h"
 
-enum { LARGE_MESH_VERTICES = 1 << 20 };
+/* Arrays of smaller meshes are freed together: one by one they would leave holes in the heap. */
+enum { LARGE_MESH_VERTICES = 1 << 12 };
 
 static const ppmi_gltf_format vec2_format = {2, 2, 2, false};
 static const ppmi_gltf_format vec3_format = {3, 3, 3, false};
@@ -196,11 +197,55 @@ static void describe(const ppmi_gltf_geometry *g, float radius_m, ppm_primitive_
     }
 }
 
+/* The primitives of a mesh whose arrays the scene copies. */
+typedef struct handover {
+    ppm_context *context;
+    ppmi_gltf_geometry *all;
+    uint32_t count;
+} handover;
+
+/* Frees *values if they are the array. */
+static void free_if(ppm_context *context, float **values, const void *array)
+{
+    if (*values != array) return;
+    ppmi_free(context, *values);
+    *values = NULL;
+}
+
+/* An array that the scene has copied: a large mesh is not held twice as a whole. */
+static void release_array(void *user, const void *array)
+{
+    const handover *h = user;
+    for (uint32_t i = 0; i < h->count; ++i) {
+        ppmi_gltf_geometry *g = &h->all[i];
+        if (!g->is_taken) {
+            free_if(h->context, &g->positions, array);
+            free_if(h->context, &g->normals, array);
+            free_if(h->context, &g->tangents, array);
+        }
+        free_if(h->context, &g->colors, array);
+        for (size_t k = 0; k < PPM_MAX_UV_SETS; ++k)
+            free_if(h->context, &g->uvs[k], array);
+        if (g->indices == array) {
+            ppmi_free(h->context, g->indices);
+            g->indices = NULL;
+        }
+    }
+}
+
+static bool is_large(const ppmi_gltf_geometry *all, size_t count)
+{
+    size_t vertices = 0;
+    for (size_t i = 0; i < count; ++i)
+        vertices += all[i].vertex_count;
+    return vertices > LARGE_MESH_VERTICES;
+}
+
 /* Hands the drawable ones of a mesh's primitives to the scene; deform is NULL for one that keeps
  * its shape. */
 static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
-                       const ppmi_gltf_geometry *all, ppm_primitive_desc *descs,
-                       ppmi_gltf_deform *deform, ppm_mesh_id *out_id)
+                       ppmi_gltf_geometry *all, ppm_primitive_desc *descs, ppmi_gltf_deform *deform,
+                       ppm_mesh_id *out_id)
 {
     char name[PPMI_GLTF_PLACE];
     uint32_t count = 0;
@@ -218,23 +263,15 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
         ++count;
     }
     if (count == 0) return PPM_STATUS_OK;
+    handover h = {reader->context, all, mesh->primitive_count};
     const ppm_mesh_desc desc = {
         .size = sizeof desc,
         .name = ppmi_gltf_printable(mesh->name, strlen(mesh->name), name, sizeof name),
         .primitive_count = count,
-        .primitives = descs};
+        .primitives = descs,
+        .release = is_large(all, mesh->primitive_count) ? release_array : NULL,
+        .release_user = &h};
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
-}
-
-/* After a large mesh the file's pages are in memory, and their values again in its arrays. */
-static void forget_what_was_large(ppmi_gltf_reader *reader, const ppmi_gltf_geometry *all,
-                                  size_t count)
-{
-    size_t vertices = 0;
-    for (size_t i = 0; i < count; ++i) {
-        vertices += all[i].vertex_count;
-    }
-    if (vertices > LARGE_MESH_VERTICES) ppmi_gltf_forget_files(reader);
 }
 
 static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_deform *deform,
@@ -258,7 +295,6 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
         }
     }
     if (status == PPM_STATUS_OK) {
-        forget_what_was_large(reader, all, mesh->primitive_count);
         status = emit(reader, mesh, all, descs, deform, out_id);
     }
     if (deform) ppmi_gltf_deform_release(reader->context, deform);

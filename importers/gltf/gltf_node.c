@@ -177,6 +177,12 @@ static ppm_status emit_mesh(ppmi_gltf_reader *reader, int32_t index)
     if (status != PPM_STATUS_OK || mesh == 0) return status;
     if (reader->is_posed_again && !reader->pose->has_moved[index]) return PPM_STATUS_OK;
     if (node->is_instanced && node->skin < 0) return add_gpu_instances(reader, index, mesh);
+    if (node->is_instanced && !reader->is_posed_again) {
+        char place[PPMI_GLTF_PLACE];
+        ppmi_gltf_place(place, "nodes[%d].extensions.EXT_mesh_gpu_instancing", (int)index);
+        ppmi_gltf_warn(reader, place,
+                       "left out: the node has a skin, whose joints say where the mesh is");
+    }
     return add_instance(reader, index, mesh, 0, NULL);
 }
 

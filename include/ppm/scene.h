@@ -253,6 +253,12 @@ typedef struct ppm_mesh_desc {
     const char *name; /* may be NULL */
     uint32_t primitive_count;
     const ppm_primitive_desc *primitives;
+    /* Called once for each array of the primitives as soon as it has been copied, if not NULL, so
+     * that the caller can free it: a large mesh is then never in memory twice as a whole. After a
+     * failure only those that it was called for have been copied. An array that is given twice must
+     * not be freed at the first call. */
+    void (*release)(void *user, const void *array);
+    void *release_user;
 } ppm_mesh_desc;
 
 /* Adds a mesh. Triangles with a position that is not finite, and those of no area, are dropped and

@@ -24,33 +24,47 @@ static float *copy_floats(ppm_scene *scene, const float *values, size_t count, s
 }
 
 /* Copies an optional array; false when memory is out. */
-static bool copy_optional(ppm_scene *scene, const float *values, size_t count, float **out_copy)
+/* Whom to tell of an array that has been copied. */
+typedef struct releaser {
+    void (*release)(void *user, const void *array);
+    void *user;
+} releaser;
+
+static void let_go(const releaser *to, const void *array)
+{
+    if (to->release && array) to->release(to->user, array);
+}
+
+static bool copy_optional(ppm_scene *scene, const float *values, size_t count, const releaser *to,
+                          float **out_copy)
 {
     if (!values) return true;
     *out_copy = copy_floats(scene, values, count, 0);
+    if (*out_copy) let_go(to, values);
     return *out_copy != NULL;
 }
 
 /* What moves with the vertices: one block a motion step. */
 static bool copy_vertices(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t steps,
-                          ppmi_primitive *primitive)
+                          const releaser *to, ppmi_primitive *primitive)
 {
     const size_t count = (size_t)steps * desc->vertex_count;
     primitive->motion_steps = steps;
     primitive->positions = copy_floats(scene, desc->positions, 3 * count, 4);
-    return primitive->positions &&
-           copy_optional(scene, desc->normals, 3 * count, &primitive->normals) &&
-           copy_optional(scene, desc->tangents, 4 * count, &primitive->tangents);
+    if (!primitive->positions) return false;
+    let_go(to, desc->positions);
+    return copy_optional(scene, desc->normals, 3 * count, to, &primitive->normals) &&
+           copy_optional(scene, desc->tangents, 4 * count, to, &primitive->tangents);
 }
 
-static bool copy_attributes(ppm_scene *scene, const ppm_primitive_desc *desc,
+static bool copy_attributes(ppm_scene *scene, const ppm_primitive_desc *desc, const releaser *to,
                             ppmi_primitive *primitive)
 {
     const size_t count = desc->vertex_count;
     for (uint32_t i = 0; i < PPM_MAX_UV_SETS; i++) {
-        if (!copy_optional(scene, desc->uvs[i], 2 * count, &primitive->uvs[i])) return false;
+        if (!copy_optional(scene, desc->uvs[i], 2 * count, to, &primitive->uvs[i])) return false;
     }
-    return copy_optional(scene, desc->colors, 4 * count, &primitive->colors);
+    return copy_optional(scene, desc->colors, 4 * count, to, &primitive->colors);
 }
 
 static uint32_t vertices_per_element(int32_t kind)
@@ -280,7 +294,8 @@ static void colors_to_working_space(const ppmi_working_space *space, ppmi_primit
 }
 
 static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *desc, uint32_t index,
-                                 uint32_t default_material, ppmi_mesh *mesh, mesh_faults *faults)
+                                 uint32_t default_material, const releaser *to, ppmi_mesh *mesh,
+                                 mesh_faults *faults)
 {
     ppmi_primitive *primitive = &mesh->primitives[index];
     const uint32_t count = given_elements(desc);
@@ -292,14 +307,15 @@ static ppm_status fill_primitive(ppm_scene *scene, const ppm_primitive_desc *des
     primitive->vertex_count = desc->vertex_count;
     primitive->indices = ppmi_alloc(scene->context, count,
                                     vertices_per_element(desc->kind) * sizeof *primitive->indices);
-    if (!primitive->indices || !copy_vertices(scene, desc, steps_of(desc), primitive) ||
-        !copy_attributes(scene, desc, primitive)) {
+    if (!primitive->indices || !copy_vertices(scene, desc, steps_of(desc), to, primitive) ||
+        !copy_attributes(scene, desc, to, primitive)) {
         return out_of_memory(scene, mesh->name);
     }
     keep_elements(desc->indices, count, primitive, faults);
     if (!keep_given(scene, desc->indices, count, primitive)) {
         return out_of_memory(scene, mesh->name);
     }
+    let_go(to, desc->indices);
     clean_vertices(primitive, faults);
     replace_not_finite(primitive->colors, 4 * (size_t)primitive->vertex_count, 1.0f);
     colors_to_working_space(&scene->working, primitive);
@@ -357,10 +373,11 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
 {
     ppm_status status = ppmi_scene_check_open(scene);
     if (status != PPM_STATUS_OK) return status;
-    if (!desc || !out_id || desc->size < sizeof *desc ||
+    if (!desc || !out_id || desc->size < offsetof(ppm_mesh_desc, release) ||
         (desc->primitive_count > 0 && !desc->primitives)) {
         return PPM_STATUS_INVALID_ARGUMENT;
     }
+    const bool has_release = desc->size >= sizeof *desc;
     const char *name = desc->name ? desc->name : "";
     for (uint32_t i = 0; i < desc->primitive_count && status == PPM_STATUS_OK; i++) {
         status = check_primitive(scene, &desc->primitives[i], i, name);
@@ -387,8 +404,10 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
     }
     mesh->primitive_count = desc->primitive_count;
     mesh_faults faults = {0};
+    const releaser to = has_release ? (releaser){desc->release, desc->release_user} : (releaser){0};
     for (uint32_t i = 0; i < desc->primitive_count && status == PPM_STATUS_OK; i++) {
-        status = fill_primitive(scene, &desc->primitives[i], i, default_material, mesh, &faults);
+        status =
+            fill_primitive(scene, &desc->primitives[i], i, default_material, &to, mesh, &faults);
     }
     if (status != PPM_STATUS_OK) return status;
     update_bounds(mesh);
@@ -482,7 +501,9 @@ ppm_status ppm_scene_set_mesh_vertices(ppm_scene *scene, ppm_mesh_id id, uint32_
     ppmi_primitive changed = *target;
     changed.positions = changed.normals = changed.tangents = NULL;
     mesh_faults faults = {0};
-    if (!copy_vertices(scene, desc, steps, &changed) || !choose_again(scene, &changed, &faults)) {
+    const releaser nobody = {0};
+    if (!copy_vertices(scene, desc, steps, &nobody, &changed) ||
+        !choose_again(scene, &changed, &faults)) {
         free_vertices(scene->context, &changed);
         return out_of_memory(scene, mesh->name);
     }

@@ -347,6 +347,9 @@ static const struct {
     SLOT("pbrSpecularGlossiness", "", "specularGlossinessTexture", metallic_roughness_texture),
     SLOT("retroreflection", "'retroreflectionFactor':1,", "retroreflectionTexture",
          retroreflection_texture),
+    {"'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
+     "'KHR_materials_scatter':{'scatterStrengthFactor':1,'multiscatterColorTexture':",
+     "}}", offsetof(ppm_material_desc, diffuse_transmission_color_texture)},
     SLOT("sheen", "'sheenColorFactor':[1,1,1],", "sheenColorTexture", sheen_color_texture),
     SLOT("sheen", "'sheenColorFactor':[1,1,1],", "sheenRoughnessTexture", sheen_roughness_texture),
     SLOT("specular", "", "specularTexture", specular_texture),

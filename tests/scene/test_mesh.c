@@ -274,6 +274,79 @@ static void a_singular_transform_is_left_out_with_a_warning(void **state)
     assert_int_equal(test.warnings, 3);
 }
 
+/* Arrays that are overwritten as soon as they may be. */
+typedef struct given_arrays {
+    float positions[12], normals[12], uvs[8], colors[16];
+    uint32_t indices[9];
+    int calls;
+} given_arrays;
+
+static void overwrite(void *user, const void *array)
+{
+    given_arrays *given = user;
+    void *const all[] = {given->positions, given->normals, given->uvs, given->colors,
+                         given->indices};
+    const size_t sizes[] = {sizeof given->positions, sizeof given->normals, sizeof given->uvs,
+                            sizeof given->colors, sizeof given->indices};
+    for (int i = 0; i < 5; i++) {
+        if (all[i] != array) continue;
+        memset(all[i], 0xff, sizes[i]);
+        given->calls++;
+        return;
+    }
+    fail_msg("an array that was not given");
+}
+
+static void each_array_is_let_go_when_it_has_been_copied(void **state)
+{
+    (void)state;
+    given_arrays given = {.uvs = {0.25f}, .colors = {0.5f}};
+    memcpy(given.positions, corner_positions, sizeof corner_positions);
+    memcpy(given.indices, corner_indices, sizeof corner_indices);
+    for (int i = 0; i < 4; i++)
+        given.normals[3 * i + 2] = 1.0f;
+    ppm_primitive_desc primitive = corner();
+    primitive.positions = given.positions;
+    primitive.normals = given.normals;
+    primitive.uvs[0] = given.uvs;
+    primitive.colors = given.colors;
+    primitive.indices = given.indices;
+    ppm_mesh_desc desc = {.size = sizeof desc,
+                          .primitive_count = 1,
+                          .primitives = &primitive,
+                          .release = overwrite,
+                          .release_user = &given};
+    ppm_mesh_id id;
+    given.indices[4] = 4; /* refused before anything is copied */
+    assert_int_equal(ppm_scene_add_mesh(test.scene, &desc, &id), PPM_STATUS_INVALID_ARGUMENT);
+    assert_int_equal(given.calls, 0);
+    given.indices[4] = corner_indices[4];
+    assert_int_equal(ppm_scene_add_mesh(test.scene, &desc, &id), PPM_STATUS_OK);
+    assert_int_equal(given.calls, 5);
+    const ppmi_primitive *p = kept(id);
+    assert_memory_equal(p->positions, corner_positions, sizeof corner_positions);
+    assert_memory_equal(p->indices, corner_indices, sizeof corner_indices);
+    assert_float_equal(p->normals[11], 1.0f, 0.0f);
+    assert_float_equal(p->uvs[0][0], 0.25f, 0.0f);
+    assert_float_equal(p->colors[0], 0.5f, 0.0f);
+}
+
+/* A caller that was built before there was a release. */
+static void an_older_desc_has_no_release(void **state)
+{
+    (void)state;
+    given_arrays given = {.calls = 0};
+    const ppm_primitive_desc primitive = corner();
+    const ppm_mesh_desc desc = {.size = offsetof(ppm_mesh_desc, release),
+                                .primitive_count = 1,
+                                .primitives = &primitive,
+                                .release = overwrite,
+                                .release_user = &given};
+    ppm_mesh_id id;
+    assert_int_equal(ppm_scene_add_mesh(test.scene, &desc, &id), PPM_STATUS_OK);
+    assert_int_equal(given.calls, 0);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -289,6 +362,8 @@ int main(void)
         WITH_SCENE(normals_without_direction_become_the_faces),
         WITH_SCENE(attributes_that_are_not_finite_are_replaced),
         WITH_SCENE(empty_meshes_are_fine),
+        WITH_SCENE(each_array_is_let_go_when_it_has_been_copied),
+        WITH_SCENE(an_older_desc_has_no_release),
         WITH_SCENE(instances_need_a_mesh_and_a_finite_transform),
         WITH_SCENE(a_singular_transform_is_left_out_with_a_warning),
     };
