@@ -133,7 +133,7 @@ def add_fruit(location):
 
 def add_table():
     kit.add_cuboid("Table", (-0.55, -0.32, -0.03), (0.55, 0.42, 0.0), material("Table"))
-    kit.add_quad("Wall", (-1.6, 0.62, -0.8), (3.2, 0, 0), (0, 0, 2.4), material("Wall"))
+    kit.add_quad("Wall", (-1.0, 0.62, -0.5), (2.0, 0, 0), (0, 0, 1.5), material("Wall"))
     # the cloth lies on the table, its hems on the cloth, each by a thread's width
     kit.add_quad("Cloth", (-0.215, -0.32, 0.0004), (0.43, 0, 0), (0, 0.70, 0), material("Cloth"))
     for x in (-0.205, -0.190, 0.190, 0.205):
