@@ -13,10 +13,9 @@
 
 static test_family family;
 
-static ppmi_vec3 albedo_of(const ppmi_bsdf *bsdf, uint32_t mask, ppmi_rng *rng)
+static float albedo_of(const ppmi_bsdf *bsdf, uint32_t mask)
 {
-    const float u_lobe = ppmi_rng_float(rng), u = ppmi_rng_float(rng), v = ppmi_rng_float(rng);
-    return ppmi_bsdf_albedo(bsdf, bsdf_albedo(), mask, u_lobe, u, v);
+    return ppmi_bsdf_albedo(bsdf, bsdf_albedo(), mask).y;
 }
 
 /* What is returned of even light from all sides, without the gain of refraction. */
@@ -43,17 +42,23 @@ static bool is_rough_glass(const ppmi_bsdf *bsdf)
     return bsdf->lobes & PPMI_LOBE_GLASS && !(bsdf->delta_lobes & PPMI_LOBE_GLASS);
 }
 
+/* Of the tables of albedos: 0.006 at most (test_albedo.c); that of stretched lobes is coarser, by
+ * up to 0.021 where they are narrow and seen at a grazing angle. */
+static double table_error(const ppmi_bsdf *bsdf)
+{
+    return bsdf->is_layered && bsdf->layers.anisotropy > 0.0f ? 0.022 : 0.006;
+}
+
 static void compare(const bsdf_case *item, const ppmi_bsdf *bsdf, void *user)
 {
     ppmi_rng *rng = user;
-    if (bsdf->is_layered || is_rough_glass(bsdf)) return;
+    if (is_rough_glass(bsdf)) return;
     const uint32_t masks[] = {PPMI_LOBE_ALL, bsdf->gather_lobes};
     for (int i = 0; i < 2; i++) {
         if (ppmi_bsdf_probability(bsdf, masks[i]) == 0.0f) continue;
         const test_mean mean = drawn(bsdf, masks[i], rng);
-        const double albedo = (double)albedo_of(bsdf, masks[i], rng).y;
-        /* the table's steps, as in test_albedo.c */
-        family_add_mean(&family, &mean, albedo, 4e-3, "%s, mask %d", item->name, i);
+        const double albedo = (double)albedo_of(bsdf, masks[i]);
+        family_add_mean(&family, &mean, albedo, table_error(bsdf), "%s, mask %d", item->name, i);
     }
 }
 
@@ -71,36 +76,15 @@ static void clear_glass_is_white(void **state)
 {
     (void)state;
     const int kinds[] = {KIND_GLASS, KIND_GLASS_INSIDE, KIND_THIN_GLASS};
-    ppmi_rng rng = ppmi_rng_start(2, PPMI_STREAM_EYE, 0);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         for (int k = 0; k < 3; k++) {
             bsdf_case item;
             ppmi_bsdf bsdf;
             bsdf_make_case(kinds[i], 0.4f * (float)k, 0.7f, &item, &bsdf);
             bsdf.tint = vec3_splat(1.0f);
-            assert_near(albedo_of(&bsdf, PPMI_LOBE_ALL, &rng).y, 1.0, 1e-6);
+            assert_near(albedo_of(&bsdf, PPMI_LOBE_ALL), 1.0, 1e-6);
         }
     }
-}
-
-/* White layers return all light; one draw is not it, the mean is. */
-static void layers_are_right_on_average(void **state)
-{
-    (void)state;
-    const int kinds[] = {KIND_WHITE_COATED_PLASTIC, KIND_WHITE_SHEEN, KIND_WHITE_LEAF};
-    ppmi_rng rng = ppmi_rng_start(3, PPMI_STREAM_EYE, 0);
-    family = (test_family){0};
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        bsdf_case item;
-        ppmi_bsdf bsdf;
-        test_mean mean = {0};
-        bsdf_make_case(kinds[i], 0.5f, 0.7f, &item, &bsdf);
-        for (uint32_t n = 0; n < TEST_EFFORT(20000); n++)
-            mean_add(&mean, (double)albedo_of(&bsdf, PPMI_LOBE_ALL, &rng).y);
-        family_add_mean(&family, &mean, 1.0, 5e-3, "%s", item.name);
-        mean_check_power(&mean, 0.01);
-    }
-    family_check(&family);
 }
 
 int main(void)
@@ -108,7 +92,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_what_even_light_gives),
         cmocka_unit_test(clear_glass_is_white),
-        cmocka_unit_test(layers_are_right_on_average),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
