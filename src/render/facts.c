@@ -42,17 +42,19 @@ static bool project_at(const ppmi_job *job, const ppmi_hit *hit, float time, ppm
     return project(&view, surface.position, out_place);
 }
 
-/* From the middle of the shutter to its opening and to its closing, as if it went on like that for
- * a frame each. */
+/* As Blender's vector pass: the way to where the point was at the opening of the shutter, and the
+ * way from where it is at the closing, both as if they took a frame. Even motion has the same in
+ * both. */
 static void find_motion(const ppmi_job *job, const ppmi_hit *hit, float motion[4])
 {
     const float half = 0.5f * (job->options->shutter_close - job->options->shutter_open);
     ppmi_vec2 now, then;
     if (!ppmi_shutter_is_open(job) || !project_at(job, hit, 0.5f, &now)) return;
     for (int i = 0; i < 2; i++) {
+        const float scale = (i == 0 ? 1.0f : -1.0f) / half;
         if (!project_at(job, hit, (float)i, &then)) continue;
-        motion[2 * i] = (then.x - now.x) / half;
-        motion[2 * i + 1] = (then.y - now.y) / half;
+        motion[2 * i] = scale * (then.x - now.x);
+        motion[2 * i + 1] = scale * (then.y - now.y);
     }
 }
 

@@ -127,13 +127,12 @@ static ppmi_vec3 normal_of(const ppmi_job *job, const ppmi_walker *walker,
                 -vec3_dot(n, view.forward));
 }
 
-static appearance describe(const ppmi_job *job, ppmi_walker *walker, const ppmi_vertex *vertex,
-                           const ppmi_bsdf *bsdf, ppmi_vec3 direction, uint32_t lobes)
+static appearance describe(const ppmi_job *job, const ppmi_walker *walker,
+                           const ppmi_vertex *vertex, const ppmi_bsdf *bsdf, ppmi_vec3 direction,
+                           uint32_t lobes)
 {
-    const float u_lobe = ppmi_walker_float(walker);
-    const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
     return (appearance){
-        .albedo = ppmi_bsdf_albedo(bsdf, job->world.albedo, lobes, u_lobe, u, v),
+        .albedo = ppmi_bsdf_albedo(bsdf, job->world.albedo, lobes),
         .normal = normal_of(job, walker, vertex, direction),
     };
 }

@@ -720,23 +720,9 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
 
 /* ---- albedo ---------------------------------------------------------------------------------- */
 
-static ppmi_vec3 drawn_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
-                              float u_lobe, float u, float v)
+/* Schlick's albedo by channel, and the base by what the coat leaves over on average; both exact. */
+static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
 {
-    ppmi_bsdf_sample sample;
-    if (!ppmi_bsdf_draw(bsdf, albedo, mask, PPMI_TRANSPORT_RADIANCE, u_lobe, u, v, &sample)) {
-        return vec3_splat(0.0f);
-    }
-    return vec3_scale(sample.weight, 1.0f / sample.eta_scale);
-}
-
-/* Schlick's albedo by channel, and the base by what the coat leaves over on average; both exact.
- * Rough glass has the Fresnel term of its smooth surface. */
-ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
-                           float u_lobe, float u, float v)
-{
-    if (bsdf->is_layered) return drawn_albedo(bsdf, albedo, mask, u_lobe, u, v);
-    mask &= bsdf->lobes;
     ppmi_vec3 sum = vec3_splat(0.0f);
     ppmi_albedo_pair at_o = {0.0f, 0.0f}, average = {0.0f, 0.0f};
     if (!is_lambert(bsdf)) {
@@ -751,11 +737,23 @@ ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albed
     if (mask & PPMI_LOBE_SPEC) {
         sum = vec3_mad(vec3_mad(sum, bsdf->f0, at_o.a), bsdf->f90, at_o.b);
     }
-    if (mask & PPMI_LOBE_GLASS) {
-        float cos_t;
-        const float reflected = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
-        const ppmi_vec3 glass = vec3_lerp(bsdf->tint, vec3_splat(1.0f), reflected);
-        sum = vec3_mad(sum, glass, bsdf->glass_weight);
-    }
     return sum;
+}
+
+/* With the Fresnel term of the smooth surface, and below what coat and sheen leave over here. */
+static ppmi_vec3 glass_albedo(const ppmi_bsdf *bsdf)
+{
+    float cos_t;
+    const float reflected = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    const ppmi_vec3 tone = glass_tone(bsdf, bsdf->wo.z, reflected);
+    const float share = bsdf->glass_weight * (bsdf->is_layered ? bsdf->layers.passing : 1.0f);
+    return vec3_scale(vec3_mad(tone, bsdf->tint, 1.0f - reflected), share);
+}
+
+ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
+{
+    mask &= bsdf->lobes;
+    const ppmi_vec3 sum = bsdf->is_layered ? ppmi_layers_albedo(bsdf, albedo, mask)
+                                           : plain_albedo(bsdf, albedo, mask);
+    return mask & PPMI_LOBE_GLASS ? vec3_add(sum, glass_albedo(bsdf)) : sum;
 }

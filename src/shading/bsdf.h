@@ -141,9 +141,9 @@ float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask);
 
 /* Albedo for light that goes to wo, by channel: the share that the lobes in mask return or let
  * through of light that is even over all directions; without what radiance gains by refraction. 1
- * for clear glass. Of layered materials it is a draw, right on average; u_lobe, u, v in [0, 1). */
-ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,
-                           float u_lobe, float u, float v);
+ * for clear glass. Rough glass has the Fresnel term of the smooth surface; all else is exact to
+ * what the tables of albedos are. Not for media. */
+ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask);
 
 /* Draws a direction from the lobes in mask; u_lobe, u, v in [0, 1). False when nothing leaves. */
 bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask,

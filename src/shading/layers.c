@@ -362,6 +362,67 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     }};
 }
 
+/* ---- albedo ---------------------------------------------------------------------------------- */
+
+/* As film_albedo, by channel and of the whole base: what the film adds to Schlick's curve between
+ * its ends. */
+static ppmi_vec3 film_beyond(const ppmi_bsdf *bsdf, ppmi_vec3 f0, ppmi_vec3 f90,
+                             const ppmi_lobe_nodes *nodes, int count)
+{
+    ppmi_vec3 sum = vec3_splat(0.0f);
+    for (int k = 0; k < count; k++) {
+        const float c = nodes->cos_h[k];
+        const ppmi_vec3 curve = vec3_lerp(f0, f90, ppmi_schlick_weight(c));
+        sum = vec3_add(sum, vec3_sub(spec_fresnel(bsdf, c), curve));
+    }
+    return vec3_scale(sum, 1.0f / (float)count);
+}
+
+static ppmi_vec3 colored_spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    if (!has_speculars(bsdf)) return vec3_splat(0.0f);
+    const bool has_film = layers->film > 0.0f, is_covered = has_top(layers);
+    const ppmi_albedo_pair pair = spec_pair(bsdf, albedo, bsdf->wo);
+    const ppmi_vec3 f0 = has_film ? spec_fresnel(bsdf, 1.0f) : bsdf->f0;
+    const ppmi_vec3 f90 =
+        has_film ? vec3_lerp(bsdf->f90, vec3_splat(layers->opaque), layers->film) : bsdf->f90;
+    ppmi_vec3 sum = vec3_mad(vec3_scale(f0, pair.a), f90, pair.b);
+    if (!has_film && !is_covered) return sum;
+    ppmi_lobe_nodes nodes;
+    const int count = spec_nodes(bsdf, albedo, bsdf->wo.z, &nodes);
+    if (has_film) {
+        const ppmi_vec3 beyond = film_beyond(bsdf, f0, f90, &nodes, count);
+        sum = vec3_mad(sum, beyond, pair.a + pair.b);
+    }
+    if (!is_covered) return sum;
+    return vec3_scale(sum, spec_passing(layers, albedo, layers->passing, &nodes, count));
+}
+
+ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    const float cos_coat = cos_to_coat(layers, bsdf->wo);
+    const float coat = coat_albedo(layers, albedo, cos_coat);
+    ppmi_vec3 sum = vec3_splat(mask & PPMI_LOBE_COAT ? coat : 0.0f);
+    if (mask & (PPMI_LOBE_WIDE | PPMI_LOBE_THROUGH)) {
+        const leftovers average = average_leftovers(bsdf, albedo);
+        if (mask & PPMI_LOBE_WIDE) {
+            sum = vec3_mad(sum, bsdf->coat_base, average.dielectric);
+            sum = vec3_mad(sum, bsdf->metal_base, average.metal);
+        }
+        if (mask & PPMI_LOBE_THROUGH) sum = vec3_mad(sum, layers->through, average.dielectric);
+    }
+    const float share = (mask & PPMI_LOBE_SPEC ? 1.0f - layers->retro : 0.0f) +
+                        (mask & PPMI_LOBE_RETRO ? layers->retro : 0.0f);
+    if (share > 0.0f) sum = vec3_mad(sum, colored_spec_albedo(bsdf, albedo), share);
+    if (mask & PPMI_LOBE_SHEEN && !vec3_is_black(layers->sheen_color)) {
+        const float sheen = top_albedo(layers, albedo, cos_coat, bsdf->wo.z) - coat;
+        sum = vec3_mad(sum, layers->sheen_color, sheen / vec3_max_component(layers->sheen_color));
+    }
+    return sum;
+}
+
 /* ---- evaluation ------------------------------------------------------------------------------ */
 
 /* wo, or for the retroreflective half of the speculars its mirror image: Portsmouth et al. 2026,

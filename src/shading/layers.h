@@ -28,6 +28,9 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
  * diffuse. */
 float ppmi_layers_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi);
 
+/* Albedo for light that goes to wo, of the lobes in mask but GLASS, by channel. */
+ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask);
+
 /* f of the base's lobes in mask but GLASS, for wi whose side is clear; none of them delta. */
 ppmi_vec3 ppmi_layers_eval_base(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                                 ppmi_vec3 wi, uint32_t mask);

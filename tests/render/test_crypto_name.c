@@ -47,6 +47,16 @@ static void ids_are_those_of_published_manifests(void **state)
     assert_int_equal(ppmi_crypto_id("leftAsset"), 0xce406a47);
 }
 
+/* From the header of a picture of the default plane by Blender 3.4. */
+static void ids_and_keys_are_blenders(void **state)
+{
+    (void)state;
+    char key[8];
+    assert_int_equal(ppmi_crypto_id("Plane"), 0x4159b52a);
+    ppm_cryptomatte_key("ViewLayer.CryptoObject", key);
+    assert_string_equal(key, "542cafa");
+}
+
 /* https://stackoverflow.com/questions/14747343/murmurhash3-test-vectors: every remainder of the
  * length by four, bytes with their highest bit, seeds. */
 static void the_hash_takes_any_length_and_seed(void **state)
@@ -130,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ids_are_the_published_ones),
         cmocka_unit_test(ids_are_those_of_published_manifests),
+        cmocka_unit_test(ids_and_keys_are_blenders),
         cmocka_unit_test(the_hash_takes_any_length_and_seed),
         cmocka_unit_test(no_id_is_a_denormal_an_infinity_or_no_number),
         cmocka_unit_test(a_key_is_seven_digits),

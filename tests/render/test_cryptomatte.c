@@ -382,7 +382,7 @@ static void a_full_pixel_keeps_what_covers_much_and_the_sum(void **state)
     enum { NAMES = 40, SAMPLES = 1000, RANKS = 2 };
     const ppm_material_id grey = material_lambert(test.scene, 0.5f);
     for (int i = 0; i < NAMES; i++) {
-        char name[8];
+        char name[16];
         snprintf(name, sizeof name, "n%d", i);
         add_part(name, NULL, grey, 0);
     }
