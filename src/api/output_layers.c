@@ -158,6 +158,7 @@ static ppm_status write_file(const ppm_output_options *options, const ppmi_outpu
         .parts = parts,
         .attribute_count = header->count,
         .attributes = header->attributes,
+        .repeated_count = header->repeated_count,
         .read_rows = read_rows,
         .user = source,
     };
