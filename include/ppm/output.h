@@ -20,7 +20,7 @@ enum {
     PPM_COMPRESSION_ZIPS = 3,  /* rows one by one: quick to scrub through */
     PPM_COMPRESSION_ZIP = 4,   /* 16 rows together: smaller */
     PPM_COMPRESSION_PIZ = 5,   /* wavelets: smallest for noise */
-    PPM_COMPRESSION_PXR24 = 6, /* 32-bit floats lose 8 bits */
+    PPM_COMPRESSION_PXR24 = 6, /* 32-bit floats lose 8 bits: not for Cryptomattes */
     PPM_COMPRESSION_DWAA = 7,  /* lossy, 32 rows together */
     PPM_COMPRESSION_DWAB = 8   /* lossy, 256 rows together */
 };

@@ -89,12 +89,14 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
                             options->command, &ppmi_render_scene(render)->working);
     const ppmi_view_choice choice = view_of(options);
     add_view(color, &choice, &header);
-    ppmi_output_header_add_origin(&header, options->copyright, options->xmp);
     if (options->has_frame) {
         ppmi_output_header_add_frame(&header, options->frame, options->frames_per_second);
     }
     ppmi_output_facts facts;
     ppmi_output_header_add_facts(&header, render, &facts);
+    header.repeated_count = header.count;
+    ppmi_output_header_add_mattes(&header, render, &facts);
+    ppmi_output_header_add_origin(&header, options->copyright, options->xmp);
     return ppmi_output_layers_write(context, render, path, options, &header);
 }
 

@@ -5,6 +5,7 @@
 #include "api/output_facts.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "camera/camera.h"
 #include "render/render.h"
@@ -101,6 +102,24 @@ static void add_digests(ppmi_output_header *header, const ppm_render *render,
     ppmi_output_header_add(header, "ppm:view", PPMI_ATTRIBUTE_STRING)->text = facts->view;
 }
 
+/* Cryptomatte specification 1.2, "metadata". */
+static void add_cryptomatte(ppmi_output_header *header, const ppm_render *render, int32_t kind,
+                            char names[4][48])
+{
+    static const char *const fields[4] = {"name", "hash", "conversion", "manifest"};
+    const char *manifest = NULL;
+    char key[8];
+    if (!(ppm_render_get_options(render)->layers & PPM_LAYER_BIT(kind))) return;
+    if (ppm_render_cryptomatte_manifest(render, kind, &manifest) != PPM_STATUS_OK) return;
+    ppm_cryptomatte_key(ppm_layer_kind_name(kind), key);
+    const char *const values[4] = {ppm_layer_kind_name(kind), "MurmurHash3_32", "uint32_to_float32",
+                                   manifest};
+    for (int i = 0; i < 4; i++) {
+        snprintf(names[i], sizeof names[i], "cryptomatte/%s/%s", key, fields[i]);
+        ppmi_output_header_add(header, names[i], PPMI_ATTRIBUTE_STRING)->text = values[i];
+    }
+}
+
 void ppmi_output_header_add_facts(ppmi_output_header *header, const ppm_render *render,
                                   ppmi_output_facts *facts)
 {
@@ -116,4 +135,11 @@ void ppmi_output_header_add_facts(ppmi_output_header *header, const ppm_render *
     if (ppm_render_get_stats(render, &stats) != PPM_STATUS_OK) return;
     facts->seconds = (float)stats.seconds_render;
     add(header, "ppm:seconds", PPMI_ATTRIBUTE_FLOAT, &facts->seconds, 1);
+}
+
+void ppmi_output_header_add_mattes(ppmi_output_header *header, const ppm_render *render,
+                                   ppmi_output_facts *facts)
+{
+    for (int32_t i = 0; i < 3; i++)
+        add_cryptomatte(header, render, PPM_LAYER_CRYPTO_OBJECT + i, facts->crypto_names[i]);
 }

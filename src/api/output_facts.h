@@ -11,6 +11,7 @@ typedef struct ppmi_output_facts {
     float window_center[2], window_width;
     float focal_length_mm, sensor_mm, f_number, focus_distance_m;
     float seconds;
+    char crypto_names[3][4][48]; /* of the attributes of each Cryptomatte */
     char scene[PPMI_DIGEST_TEXT_SIZE], view[PPMI_DIGEST_TEXT_SIZE];
 } ppmi_output_facts;
 
@@ -19,5 +20,10 @@ typedef struct ppmi_output_facts {
  * ppm:seconds. */
 void ppmi_output_header_add_facts(ppmi_output_header *header, const ppm_render *render,
                                   ppmi_output_facts *facts);
+
+/* Adds what Cryptomatte 1.2 asks for: cryptomatte/KEY/name, hash, conversion and manifest. facts
+ * has been filled in. */
+void ppmi_output_header_add_mattes(ppmi_output_header *header, const ppm_render *render,
+                                   ppmi_output_facts *facts);
 
 #endif

@@ -12,6 +12,8 @@ enum { PPMI_OUTPUT_ATTRIBUTES_MAX = 64, PPMI_OUTPUT_COUNTS_MAX = 4 };
 typedef struct ppmi_output_header {
     ppmi_image_attribute attributes[PPMI_OUTPUT_ATTRIBUTES_MAX];
     uint32_t count;
+    uint32_t repeated_count; /* of the first that all parts of a file are to have; the others may be
+                                long */
     char software[32];
     char options[1024];
     float time_s;

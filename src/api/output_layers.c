@@ -158,6 +158,7 @@ static ppm_status write_file(const ppm_output_options *options, const ppmi_outpu
         .parts = parts,
         .attribute_count = header->count,
         .attributes = header->attributes,
+        .repeated_count = header->repeated_count,
         .read_rows = read_rows,
         .user = source,
     };
@@ -184,6 +185,23 @@ static ppm_status write_channels(const ppm_output_options *options,
     return status;
 }
 
+/* It keeps 24 bits of each number; ids have 32. */
+static ppm_status check_ids(ppm_context *context, const char *path,
+                            const ppm_output_options *options, const ppmi_layer_channels *channels)
+{
+    for (uint32_t i = 0; i < channels->layer_count; i++) {
+        const int32_t kind = channels->layers[i].kind;
+        if (options->compression != PPM_COMPRESSION_PXR24 || kind < PPM_LAYER_CRYPTO_OBJECT ||
+            kind > PPM_LAYER_CRYPTO_ASSET) {
+            continue;
+        }
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "%s: PXR24 would round the ids of layer '%s'", path,
+                         channels->layers[i].name);
+    }
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *render,
                                     const char *path, const ppm_output_options *options,
                                     const ppmi_output_header *header)
@@ -192,6 +210,7 @@ ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *rend
     ppmi_layer_channels channels;
     ppm_status status =
         ppmi_layer_channels_init(context, render, options->depth == PPM_DEPTH_HALF, &channels);
+    if (status == PPM_STATUS_OK) status = check_ids(context, path, options, &channels);
     if (status == PPM_STATUS_OK) {
         layer_source source = {.context = context,
                                .render = render,

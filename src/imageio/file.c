@@ -203,6 +203,11 @@ int ppmi_imageio_file_write_at(const ppmi_file_replacement *file, const void *by
     return 0;
 }
 
+const char *ppmi_imageio_file_temporary(const ppmi_file_replacement *file)
+{
+    return file->temporary;
+}
+
 void ppmi_imageio_file_cancel(ppm_context *context, ppmi_file_replacement *file)
 {
     unlink(file->temporary);

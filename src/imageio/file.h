@@ -29,6 +29,8 @@ ppm_status ppmi_imageio_file_begin(ppm_context *context, const char *path,
  * reported. */
 int ppmi_imageio_file_write_at(const ppmi_file_replacement *replacement, const void *bytes,
                                size_t byte_count, uint64_t offset);
+/* Where the new file is meanwhile, for writers that know nothing but paths. */
+const char *ppmi_imageio_file_temporary(const ppmi_file_replacement *replacement);
 /* Flushes the new file and renames it to path; or removes it, and path is as it was. Both free
  * replacement. */
 ppm_status ppmi_imageio_file_finish(ppm_context *context, ppmi_file_replacement *replacement);

@@ -64,6 +64,30 @@ static int write_bytes(void *user, const void *bytes, size_t byte_count, uint64_
     return ppmi_imageio_file_write_at(user, bytes, byte_count, offset);
 }
 
+/* Parts are written by OpenEXR's own stream, which does not tell when its last bytes find no room:
+ * what can be read again is there. */
+static ppm_status check_last_row(ppm_context *context, const char *path, const char *temporary,
+                                 const ppmi_layered_file *file, uint32_t index)
+{
+    const size_t row_values = (size_t)file->width * file->parts[index].channel_count;
+    ppm_context *const quiet = NULL; /* the reason that is told is the writer's */
+    ppmi_oiio_part *part = NULL;
+    ppmi_oiio_part_info info;
+    float *const row = ppmi_alloc(context, row_values, sizeof *row);
+    if (!row) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to check it", path);
+    }
+    ppm_status status = ppmi_oiio_part_open(quiet, temporary, index, &part, &info);
+    if (status == PPM_STATUS_OK) {
+        status = ppmi_oiio_part_read(quiet, part, temporary, file->height - 1, 1, row);
+    }
+    ppmi_oiio_part_close(part);
+    ppmi_free(context, row);
+    if (status == PPM_STATUS_OK) return PPM_STATUS_OK;
+    return ppmi_fail(context, PPM_STATUS_OUTPUT_NOT_WRITABLE,
+                     "%s: cannot be written: it is not whole; is the disk full?", path);
+}
+
 ppm_status ppmi_imageio_write_layered(ppm_context *context, const char *path,
                                       const ppmi_layered_file *file)
 {
@@ -71,7 +95,8 @@ ppm_status ppmi_imageio_write_layered(ppm_context *context, const char *path,
     ppmi_oiio_writer *writer = NULL;
     ppm_status status = ppmi_imageio_file_begin(context, path, &replacement);
     if (status != PPM_STATUS_OK) return status;
-    const ppmi_oiio_sink sink = {.write = write_bytes, .user = replacement};
+    const char *const temporary = ppmi_imageio_file_temporary(replacement);
+    const ppmi_oiio_sink sink = {.path = temporary, .write = write_bytes, .user = replacement};
     status = ppmi_oiio_create_layered(context, path, file, &sink, &writer);
     for (uint32_t i = 0; i < file->part_count && status == PPM_STATUS_OK; i++)
         status = write_part(context, path, file, i, writer);
@@ -79,6 +104,9 @@ ppm_status ppmi_imageio_write_layered(ppm_context *context, const char *path,
         const ppm_status closed =
             ppmi_oiio_close_writer(context, writer, path, status == PPM_STATUS_OK);
         if (status == PPM_STATUS_OK) status = closed;
+    }
+    for (uint32_t i = 0; i < file->part_count && file->part_count > 1; i++) {
+        if (status == PPM_STATUS_OK) status = check_last_row(context, path, temporary, file, i);
     }
     if (status == PPM_STATUS_OK) return ppmi_imageio_file_finish(context, replacement);
     ppmi_imageio_file_cancel(context, replacement);

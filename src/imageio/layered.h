@@ -23,8 +23,9 @@ typedef struct ppmi_layered_file {
     uint32_t tile_side;                     /* 0: scanlines */
     uint32_t part_count;
     const ppmi_layered_part *parts;
-    uint32_t attribute_count; /* of every part */
+    uint32_t attribute_count; /* of the first part, */
     const ppmi_image_attribute *attributes;
+    uint32_t repeated_count; /* and how many of them, from the first on, are in the others too */
     /* Fills row_count rows of a part, from y on (0: the first that is stored): for each pixel its
      * channels, packed. Called for each part in turn, from the first row to the last. */
     ppm_status (*read_rows)(void *user, uint32_t part, uint32_t y, uint32_t row_count,

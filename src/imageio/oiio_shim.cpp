@@ -352,10 +352,11 @@ class sink_proxy final : public OIIO::Filesystem::IOProxy
 
 struct ppmi_oiio_writer {
     sink_proxy proxy;
+    std::string sink_path;
     std::vector<ImageSpec> specs;
     std::unique_ptr<ImageOutput> output;
 
-    explicit ppmi_oiio_writer(const ppmi_oiio_sink &sink) : proxy(sink)
+    explicit ppmi_oiio_writer(const ppmi_oiio_sink &sink) : proxy(sink), sink_path(sink.path)
     {
     }
     ~ppmi_oiio_writer()
@@ -375,8 +376,10 @@ static ppm_status fail_writer(ppm_context *context, ppmi_oiio_writer &writer, co
                      strerror(writer.proxy.fault()));
 }
 
-static ImageSpec spec_of_part(const ppmi_layered_file &file, const ppmi_layered_part &part)
+static ImageSpec spec_of_part(const ppmi_layered_file &file, uint32_t index)
 {
+    const ppmi_layered_part &part = file.parts[index];
+    const uint32_t attribute_count = index == 0 ? file.attribute_count : file.repeated_count;
     ImageSpec spec((int)file.width, (int)file.height, (int)part.channel_count, TypeDesc::FLOAT);
     for (uint32_t i = 0; i < part.channel_count; i++) {
         const ppmi_layered_channel &channel = part.channels[i];
@@ -396,7 +399,7 @@ static ImageSpec spec_of_part(const ppmi_layered_file &file, const ppmi_layered_
     if (file.compression) spec.attribute("compression", file.compression);
     if (part.name) spec.attribute("oiio:subimagename", part.name);
     spec.attribute("DateTime", "");
-    for (uint32_t i = 0; i < file.attribute_count; i++)
+    for (uint32_t i = 0; i < attribute_count; i++)
         set_attribute(spec, file.attributes[i]);
     return spec;
 }
@@ -408,7 +411,7 @@ ppm_status ppmi_oiio_create_layered(ppm_context *context, const char *path,
     return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
         auto writer = std::make_unique<ppmi_oiio_writer>(*sink);
         for (uint32_t i = 0; i < file->part_count; i++)
-            writer->specs.push_back(spec_of_part(*file, file->parts[i]));
+            writer->specs.push_back(spec_of_part(*file, i));
         writer->output = ImageOutput::create("openexr");
         if (!writer->output) {
             OIIO::geterror();
@@ -416,7 +419,7 @@ ppm_status ppmi_oiio_create_layered(ppm_context *context, const char *path,
                              "%s: this build of OpenImageIO cannot write OpenEXR files", path);
         }
         writer->output->threads(1);
-        writer->output->set_ioproxy(&writer->proxy);
+        if (file->part_count == 1) writer->output->set_ioproxy(&writer->proxy);
         *out_writer = writer.release();
         return PPM_STATUS_OK;
     });
@@ -428,10 +431,11 @@ ppm_status ppmi_oiio_begin_part(ppm_context *context, ppmi_oiio_writer *writer, 
     return guarded(context, PPM_STATUS_OUTPUT_NOT_WRITABLE, path, [&]() -> ppm_status {
         ImageOutput &output = *writer->output;
         const std::vector<ImageSpec> &specs = writer->specs;
-        const bool is_open = part > 0 ? output.open(path, specs[part], ImageOutput::AppendSubimage)
+        const std::string &sink = writer->sink_path;
+        const bool is_open = part > 0 ? output.open(sink, specs[part], ImageOutput::AppendSubimage)
                              : specs.size() == 1
                                  ? output.open(path, specs[0])
-                                 : output.open(path, (int)specs.size(), specs.data());
+                                 : output.open(sink, (int)specs.size(), specs.data());
         return is_open ? PPM_STATUS_OK : fail_writer(context, *writer, path);
     });
 }

@@ -55,8 +55,10 @@ ppm_status ppmi_oiio_encode(ppm_context *context, const char *format, const char
                             const char *path, const ppmi_image_file *file, const void *pixels,
                             void **out_bytes, size_t *out_byte_count) PPMI_NOEXCEPT;
 
-/* Where encoded bytes go. write returns 0 or an errno. */
+/* Where encoded bytes go. write returns 0 or an errno. OpenImageIO 2.4 writes files of several
+ * parts by their path alone: those go to path, and full disks may go unnoticed. */
 typedef struct ppmi_oiio_sink {
+    const char *path;
     int (*write)(void *user, const void *bytes, size_t byte_count, uint64_t offset);
     void *user;
 } ppmi_oiio_sink;

@@ -64,6 +64,14 @@ static double mix_mean(const merge_mixer *mixer, size_t pixel, uint32_t channel)
     return sum / mixer->total_weight;
 }
 
+static double mix_sum(const merge_mixer *mixer, size_t pixel, uint32_t channel)
+{
+    double sum = 0;
+    for (size_t s = 0; s < mixer->plan->source_count; s++)
+        sum += (double)value_of(mixer, s, pixel, channel);
+    return sum;
+}
+
 static double mix_variance(const merge_mixer *mixer, size_t pixel, uint32_t channel)
 {
     double sum = 0;
@@ -102,6 +110,9 @@ static void mix_pixel(const merge_mixer *mixer, size_t pixel, float *out)
         case MERGE_MEAN:
             out[c] = (float)mix_mean(mixer, pixel, c);
             break;
+        case MERGE_SUM:
+            out[c] = (float)mix_sum(mixer, pixel, c);
+            break;
         case MERGE_VARIANCE:
             out[c] = (float)mix_variance(mixer, pixel, c);
             break;
@@ -125,7 +136,7 @@ static ppm_status check_numbers(const merge_mixer *mixer, size_t source, uint32_
     const ppmi_layered_info *const info = &mixer->sources[source].info;
     for (size_t i = 0; i < pixel_count; i++) {
         for (uint32_t c = 0; c < plan->channel_count; c++) {
-            const bool is_mean = plan->rules[c] == MERGE_MEAN || plan->rules[c] == MERGE_VARIANCE;
+            const bool is_mean = plan->rules[c] != MERGE_FIRST && plan->rules[c] != MERGE_RANKS;
             const float value = value_of(mixer, source, i, c);
             if (!is_mean || isfinite(value)) continue;
             return ppmi_fail(mixer->context, PPM_STATUS_INPUT_INVALID,

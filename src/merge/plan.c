@@ -46,6 +46,7 @@ static int32_t rule_of(const char *name)
     matte_channel matte;
     if (parse_matte(name, &matte)) return MERGE_RANKS;
     if (is_of_layer(name, "variance")) return MERGE_VARIANCE;
+    if (is_of_layer(name, "photon_density")) return MERGE_SUM;
     if (strcmp(name, "Z") == 0) return MERGE_FIRST;
     for (size_t i = 0; i < sizeof first / sizeof first[0]; i++) {
         if (is_of_layer(name, first[i])) return MERGE_FIRST;

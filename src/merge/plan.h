@@ -6,6 +6,7 @@
 
 enum {
     MERGE_MEAN,     /* the weighted mean */
+    MERGE_SUM,      /* counts of what all of them gathered */
     MERGE_VARIANCE, /* variances of means: weights count squared */
     MERGE_FIRST,    /* that of the first file: a mean of places or numbers is none of them */
     MERGE_RANKS     /* an id or a coverage of a Cryptomatte */
