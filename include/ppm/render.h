@@ -63,13 +63,13 @@ enum {
  * or ENVIRONMENT. Light that met specular surfaces after it left its lamp and before its first
  * diffuse one is CAUSTICS, wherever it goes on; specular are mirrors, smooth glass and all else too
  * narrow for photons to be gathered. All other light is of the class of what the camera sees it on:
- * VOLUME in fog and cloudy solids, TRANSMISSION through a surface, DIFFUSE or GLOSSY by its
+ * VOLUME in fog, TRANSMISSION through a surface (a cloudy solid's too), DIFFUSE or GLOSSY by its
  * reflection, DIRECT where it comes there straight from the lamp.
  *
  * VARIANCE is an estimate, from the differences between passes: of the square of the standard
  * deviation of each channel, 0 after the first pass. It does not know that passes are spread evenly
  * (path: it is rather too large), nor that radii are still too large (SPPM), nor of what the eye
- * paths of an epoch miss (PPM). PHOTON_DENSITY and RADIUS are of surfaces, and 0 of PATH. */
+ * paths of an epoch miss (PPM). PHOTON_DENSITY is of surfaces; it and RADIUS are 0 of PATH. */
 enum {
     PPM_LAYER_COMBINED = 0, /* the picture; always there */
     PPM_LAYER_DIFFUSE_DIRECT = 1,
@@ -80,7 +80,7 @@ enum {
     PPM_LAYER_EMISSION = 6,     /* lamps and shining surfaces, seen straight */
     PPM_LAYER_ENVIRONMENT = 7,  /* seen straight */
     PPM_LAYER_CAUSTICS = 8,     /* light that met specular surfaces before its first diffuse one */
-    PPM_LAYER_VOLUME = 9,       /* light that fog or a cloudy solid scattered towards the eye */
+    PPM_LAYER_VOLUME = 9,       /* light that is seen on fog */
     PPM_LAYER_LIGHT_GROUP = 10, /* one layer for each group of lights */
     PPM_LAYER_GROUP_CAUSTICS = 11, /* and the part of CAUSTICS that is its own */
 
