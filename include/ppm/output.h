@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+enum { PPM_DITHER_DEFAULT = 0, PPM_DITHER_OFF = 1 }; /* the default is noise of one step */
 enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
 
 /* 0 or NULL in any field means its default. */
@@ -25,7 +26,10 @@ typedef struct ppm_output_options {
     double frames_per_second; /* with has_frame, above 0 */
     const char *copyright;    /* for the metadata of every format; may be NULL or "" */
     const char *xmp;          /* for the EXR's metadata: about the scene, as JSON (ppm_asset_xmp) */
-    const char *look;         /* display-referred files: as in ppm_color_check_look */
+    int32_t bits;          /* of a channel of PNG and TIFF, 8 or 16; default 8 in PNG, 16 in TIFF */
+    int32_t dither;        /* PPM_DITHER_; 8-bit PNG and TIFF */
+    uint32_t jpeg_quality; /* 1 .. 100; default 95 */
+    const char *look;      /* display-referred files: as in ppm_color_check_look */
     float gamma; /* display-referred files: to the power of 1/gamma after the view; default 1 */
 } ppm_output_options;
 

@@ -107,6 +107,9 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
         .view = options->view,
         .look = options->look,
         .gamma = (float)options->gamma,
+        .bits = options->bits,
+        .dither = options->has_no_dither ? PPM_DITHER_OFF : PPM_DITHER_DEFAULT,
+        .jpeg_quality = (uint32_t)options->jpeg_quality,
         .command = outputs->command,
         .frames_per_second = options->fps,
     };
