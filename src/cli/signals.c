@@ -67,6 +67,7 @@ void signals_install(void)
     /* A reader of the messages that goes away must not take the render with it. */
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
+    sigaction(SIGXFSZ, &action, NULL); /* a file that may not grow: writing it fails, no more */
 }
 
 void signals_enter_first_pass(ppm_render *render)
