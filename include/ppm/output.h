@@ -38,15 +38,19 @@ typedef struct ppm_output_options {
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
 /* Writes the picture so far of a session; the ending of path says the kind:
- *   .exr               scene-linear Rec.709 RGBA; exposure, display and view do not apply. With a
- *                      crop: its pixels are the data window, the whole picture the display window.
- *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
- *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
- *                      ppm:camera, ppm:command; where given, the copyright as OpenEXR's "owner"
- *                      and the scene's metadata as ppm:xmp; of a frame ppm:frame, ppm:time
- *                      (seconds), framesPerSecond
- *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
- *                      Header: Software, Copyright
+ *   .exr               scene-linear RGBA in the scene's working space; the view does not apply.
+ *                      With a crop: its pixels are the data window, the whole picture the display
+ *                      window. Header: chromaticities, colorInteropID (of known spaces),
+ *                      ppm:workingSpace, PixelAspectRatio, Software, ppm:version, ppm:options,
+ *                      ppm:integrator, ppm:passes, ppm:photons, ppm:seed, ppm:camera, ppm:command;
+ *                      with color ppm:colorConfig, ppm:display, ppm:view, ppm:look, ppm:exposure,
+ *                      ppm:gamma; where given, the copyright as OpenEXR's "owner" and the scene's
+ *                      metadata as ppm:xmp; of a frame ppm:frame, ppm:time (seconds),
+ *                      framesPerSecond
+ *   .png .jpg .tif     through exposure, look, view and gamma, in this order. The crop alone.
+ *                      8 bits with dither, TIFF 16 bits, unless options say otherwise. The colour
+ *                      space is tagged where the display's name tells it: PNG by cICP and sRGB or
+ *                      iCCP, JPEG and TIFF by an ICC profile. Header: Software, Copyright
  * color may be NULL for .exr. options may be NULL.
  * Threads: not while another thread is in ppm_render_advance.
  * Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY,

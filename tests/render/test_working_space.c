@@ -316,12 +316,18 @@ static void a_sky_is_converted(void **state)
     float zenith[2][3];
     for (int k = 0; k < 2; k++) {
         open_scene(NULL, k == 0 ? NULL : "ACEScg", NULL);
+        const ppm_environment_desc backdrop = {
+            .size = sizeof backdrop, .has_backdrop = 1, .backdrop = {0.9f, 0.1f, 0.02f}};
+        assert_int_equal(ppm_scene_set_environment(test.scene, &backdrop), PPM_STATUS_OK);
         ppm_sun_sky_desc desc;
         ppm_sun_sky_desc_init(&desc);
         assert_int_equal(ppm_scene_add_sun_sky(test.scene, &desc, NULL), PPM_STATUS_OK);
         sun[k] = test.scene->punctuals[0].intensity;
         memcpy(zenith[k], test.scene->images[0].f32, sizeof zenith[k]);
     }
+    float kept[3]; /* converted once, when it was set */
+    vec3_store(kept, test.scene->environment.backdrop);
+    assert_is_acescg(kept, 1.0);
     const double sky_in[3] = {(double)zenith[0][0], (double)zenith[0][1], (double)zenith[0][2]};
     const double sun_in[3] = {(double)sun[0].x, (double)sun[0].y, (double)sun[0].z};
     double expected[3];
