@@ -407,6 +407,8 @@ static void keep_string(checker *c, const gltf_field *field, ppmi_gltf_span span
     if (c->source && strcmp(field->key, "uri") == 0) {
         c->source->has_uri = true;
         c->source->uri = span;
+    } else if (c->source && strcmp(field->key, "name") == 0) {
+        c->source->name = span;
     } else if (length < (int)sizeof c->version && strcmp(c->path, "asset.version") == 0) {
         snprintf(c->version, sizeof c->version, "%.*s", length, c->json.text + span.begin);
     } else if (length < (int)sizeof c->version && strcmp(c->path, "asset.minVersion") == 0) {

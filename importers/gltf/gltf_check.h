@@ -46,7 +46,8 @@ typedef struct ppmi_gltf_list {
 /* What a buffer or an image says. */
 typedef struct ppmi_gltf_source {
     bool has_uri;
-    ppmi_gltf_span uri; /* the inside of the JSON string */
+    ppmi_gltf_span uri;  /* the inside of the JSON string */
+    ppmi_gltf_span name; /* the same; empty: none */
     uint64_t byte_length;
     int32_t buffer_view; /* -1: none */
 } ppmi_gltf_source;

@@ -34,8 +34,9 @@ typedef struct source {
     void *owned; /* what desc points to, if it was allocated for it */
     char place[PPMI_GLTF_PLACE], name[2 * PPMI_GLTF_PLACE]; /* desc.name */
     ppm_status status;
-    char shown[64];     /* its URI, for messages */
-    const char *reason; /* why it cannot be had */
+    char shown[64];              /* its URI, for messages */
+    char label[PPMI_GLTF_PLACE]; /* desc.label */
+    const char *reason;          /* why it cannot be had */
     char ktx2_reason[PPMI_KTX2_REASON];
 } source;
 
@@ -80,13 +81,23 @@ static ppm_status locate(ppmi_gltf_reader *reader, const ppmi_gltf_source *from,
     return status;
 }
 
-/* Where the image is: its file, or the bytes of it. */
-static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
+/* The file's own name for it, or NULL where it has none that fits. */
+static const char *label_of(const ppmi_gltf_reader *reader, ppmi_gltf_span name,
+                            char label[PPMI_GLTF_PLACE])
+{
+    if (name.end == name.begin || name.end - name.begin >= PPMI_GLTF_PLACE) return NULL;
+    label[ppmi_gltf_json_unescape(reader->json, name, label)] = '\0';
+    return label;
+}
+
+    /* Where the image is: its file, or the bytes of it. */
+    static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
 {
     *s = (source){.desc = {.size = sizeof s->desc, .role = role}};
     ppmi_gltf_place(s->place, "images[%zu]", index);
     snprintf(s->name, sizeof s->name, "%s: %s", reader->path, s->place);
     s->desc.name = s->name;
+    s->desc.label = label_of(reader, reader->outline.images.items[index].name, s->label);
     s->status = locate(reader, &reader->outline.images.items[index], s->place, s);
     if (s->status == PPM_STATUS_OUT_OF_MEMORY) ppmi_gltf_out_of_memory(reader, s->place);
 }

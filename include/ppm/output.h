@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+enum { PPM_DITHER_DEFAULT = 0, PPM_DITHER_OFF = 1 }; /* the default is noise of one step */
 enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
 
 /* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. */
@@ -43,7 +44,10 @@ typedef struct ppm_output_options {
     float compression_level;  /* of DWAA and DWAB: larger is smaller and worse; default 45 */
     uint32_t is_multipart;    /* non-zero: the EXR has a part for each layer */
     uint32_t tile_side;       /* pixels, 16 .. 4096; 0: the EXR has scanlines */
-    const char *look;         /* display-referred files: as in ppm_color_check_look */
+    int32_t bits;          /* of a channel of PNG and TIFF, 8 or 16; default 8 in PNG, 16 in TIFF */
+    int32_t dither;        /* PPM_DITHER_; 8-bit PNG and TIFF */
+    uint32_t jpeg_quality; /* 1 .. 100; default 95 */
+    const char *look;      /* display-referred files: as in ppm_color_check_look */
     float gamma; /* display-referred files: to the power of 1/gamma after the view; default 1 */
 } ppm_output_options;
 
@@ -52,17 +56,20 @@ typedef struct ppm_output_options {
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
 /* Writes the picture so far of a session; the ending of path says the kind:
- *   .exr               scene-linear Rec.709, all layers of the session: the picture as R, G, B, A,
- *                      depth as Z, the others as LAYER.CHANNEL (docs/compositing.md). Exposure,
- *                      display and view do not apply. With a crop: its pixels are the data window,
- *                      the whole picture the display window.
- *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
- *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
- *                      ppm:camera, ppm:command; where given, the copyright as OpenEXR's "owner"
- *                      and the scene's metadata as ppm:xmp; of a frame ppm:frame, ppm:time
- *                      (seconds), framesPerSecond
- *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
- *                      Header: Software, Copyright
+ *   .exr               scene-linear in the scene's working space, all layers of the session: the
+ *                      picture as R, G, B, A, depth as Z, the others as LAYER.CHANNEL
+ *                      (docs/compositing.md); the view does not apply. With a crop: its pixels are
+ *                      the data window, the whole picture the display window. Header:
+ * chromaticities, colorInteropID (of known spaces), ppm:workingSpace, PixelAspectRatio, Software,
+ * ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed, ppm:camera,
+ * ppm:command; with color ppm:colorConfig, ppm:display, ppm:view, ppm:look, ppm:exposure,
+ *                      ppm:gamma; where given, the copyright as OpenEXR's "owner" and the scene's
+ *                      metadata as ppm:xmp; of a frame ppm:frame, ppm:time (seconds),
+ *                      framesPerSecond
+ *   .png .jpg .tif     through exposure, look, view and gamma, in this order. The crop alone.
+ *                      8 bits with dither, TIFF 16 bits, unless options say otherwise. The colour
+ *                      space is tagged where the display's name tells it: PNG by cICP and sRGB or
+ *                      iCCP, JPEG and TIFF by an ICC profile. Header: Software, Copyright
  * color may be NULL for .exr. options may be NULL.
  * Threads: not while another thread is in ppm_render_advance.
  * Returns OK, INVALID_ARGUMENT, NOT_FOUND (display, view), OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY,

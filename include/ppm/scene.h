@@ -4,7 +4,8 @@
  *   lengths in metres, angles in radians, right-handed, +Y up;
  *   transforms are local-to-world, 4x4, column-major (translation in elements 12, 13, 14),
  *   affine (last row 0 0 0 1);
- *   colours are linear Rec.709 (D65), not premultiplied;
+ *   colours are linear Rec.709 (D65), not premultiplied, whatever the working space of the scene
+ *   is: they are converted where they enter it (color.h);
  *   radiance in nit (cd/m2), radiant intensity of point and spot lights in candela, irradiance of
  *   directional lights in lux, all on one photometric scale;
  *   ids start at 1; 0 is "none".
@@ -35,7 +36,8 @@ typedef uint32_t ppm_camera_id;
 typedef uint32_t ppm_light_id;
 typedef uint32_t ppm_light_profile_id;
 
-/* Makes an empty scene. color converts its textures; NULL uses the built-in configuration. The
+/* Makes an empty scene in the working space of color, which converts its textures and colours; NULL
+ * uses the built-in configuration and linear Rec.709. The
  * context and color must outlive the scene. Returns OK, INVALID_ARGUMENT, OUT_OF_MEMORY. */
 PPM_API ppm_status ppm_scene_create(ppm_context *context, const ppm_color *color,
                                     ppm_scene **out_scene);
@@ -63,9 +65,13 @@ typedef struct ppm_image_desc {
     uint32_t width;     /* of pixels */
     uint32_t height;    /* of pixels */
     uint32_t channels;  /* of pixels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA */
+    const char *label;  /* what its file calls it, or NULL: without a path, patterns of texture
+                           spaces  (color.h) and file rules are about it, or about name without it */
 } ppm_image_desc;
 
-/* Decodes and keeps an image. PPM_IMAGE_COLOR pixels of type F32 are taken as linear Rec.709.
+/* Decodes and keeps an image. PPM_IMAGE_COLOR pixels of type F32 are taken as linear Rec.709, those
+ * of type U8 as sRGB, unless the scene's color has a texture space or a file rule for the path or
+ * name; floats of a file have the primaries that it tells.
  * Returns OK, INVALID_ARGUMENT, INPUT_NOT_FOUND, INPUT_INVALID, INPUT_UNSUPPORTED, OUT_OF_MEMORY,
  * WRONG_STATE. */
 PPM_API ppm_status ppm_scene_add_image(ppm_scene *scene, const ppm_image_desc *desc,
@@ -497,8 +503,10 @@ PPM_API ppm_status ppm_scene_add_sun_sky(ppm_scene *scene, const ppm_sun_sky_des
 /* A homogeneous medium in the ball around everything in the scene that has a surface, outside of
  * solids. */
 typedef struct ppm_fog_desc {
-    uint32_t size;     /* sizeof(ppm_fog_desc) */
-    float sigma_s[3];  /* scattering coefficient, 1/m, by linear Rec.709 channel */
+    uint32_t size; /* sizeof(ppm_fog_desc) */
+    float
+        sigma_s[3];    /* scattering coefficient, 1/m, by linear Rec.709 channel; in another working
+                          space those that leave and scatter the same colours after a mean free path */
     float sigma_a[3];  /* absorption coefficient, 1/m */
     float asymmetry_g; /* Henyey-Greenstein's mean cosine, -1 < g < 1; above 0 scatters forwards */
 } ppm_fog_desc;

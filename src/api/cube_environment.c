@@ -158,14 +158,16 @@ ppm_status ppm_scene_set_cube_environment(ppm_scene *scene, const ppm_cube_envir
         return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
                          "cube environment: a face, radiance or rotation is out of range");
     }
-    const ppmi_environment *before = &scene->environment;
+    const ppmi_environment before = scene->environment;
     ppm_environment_desc environment = {
         .size = sizeof environment,
         .radiance = {desc->radiance[0], desc->radiance[1], desc->radiance[2]},
-        .has_backdrop = before->has_backdrop,
-        .backdrop = {before->backdrop.x, before->backdrop.y, before->backdrop.z},
-        .light_group = before->light_group,
+        .light_group = before.light_group,
     };
     status = add_image(scene, desc, &environment.image);
-    return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;
+    if (status == PPM_STATUS_OK) status = ppm_scene_set_environment(scene, &environment);
+    if (status != PPM_STATUS_OK) return status;
+    scene->environment.has_backdrop = before.has_backdrop; /* is in the working space already */
+    scene->environment.backdrop = before.backdrop;
+    return PPM_STATUS_OK;
 }

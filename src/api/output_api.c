@@ -2,12 +2,14 @@
 #include "ppm/output.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "api/output_facts.h"
 #include "api/output_header.h"
 #include "api/output_layers.h"
 #include "base/context.h"
 #include "color/color.h"
+#include "color/icc.h"
 #include "imageio/format.h"
 #include "imageio/imageio.h"
 #include "render/render.h"
@@ -43,6 +45,13 @@ static ppm_status check_arguments(ppm_context *context, const ppm_color *color, 
     if (format->is_scene_linear) {
         const ppm_status status = ppmi_output_layers_check(context, options);
         if (status != PPM_STATUS_OK) return status;
+    }
+    if ((options->bits != 0 && options->bits != 8 && options->bits != 16) ||
+        options->dither < PPM_DITHER_DEFAULT || options->dither > PPM_DITHER_OFF ||
+        options->jpeg_quality > 100) {
+        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
+                         "ppm_output_options: bits must be 8 or 16, dither PPM_DITHER_, "
+                         "jpeg_quality at most 100");
     }
     if (!(options->gamma >= 0 && options->gamma <= 100)) {
         return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
@@ -126,16 +135,57 @@ static void drop_alpha(float *rgba, size_t pixel_count)
     }
 }
 
+/* Says in the file what its values are, as far as its format and the configuration know. */
+static void tag_colours(ppm_context *context, const ppm_color *color, const char *path,
+                        const ppmi_view_choice *choice, uint8_t icc[PPMI_ICC_BYTES_MAX],
+                        ppmi_image_file *file)
+{
+    const ppmi_display_tag *const tag = ppmi_color_display_tag(color, choice);
+    const char *const format = ppmi_imageio_format_of_output(path)->label;
+    const bool is_png = strcmp(format, "PNG") == 0;
+    if (!tag) {
+        ppmi_log(context, PPM_LOG_DEBUG, "%s: its colour space is not known: not tagged", path);
+        return;
+    }
+    /* OpenImageIO 2.4 spoils a TIFF file in memory by the Exif directory that it makes of this */
+    if (tag->is_srgb && strcmp(format, "TIFF") != 0) file->color_space = "sRGB";
+    file->has_cicp = tag->cicp[0] > 0;
+    memcpy(file->cicp, tag->cicp, sizeof file->cicp);
+    const bool needs_profile = !(is_png && (tag->is_srgb || tag->curve == PPMI_CURVE_HDR));
+    if (!needs_profile) return;
+    file->icc_bytes = ppmi_icc_write(tag, icc);
+    file->icc = file->icc_bytes > 0 ? icc : NULL;
+    if (!file->icc) {
+        ppmi_log(context, PPM_LOG_WARNING, "%s: only .png can say that it is %s: not tagged", path,
+                 tag->name);
+    }
+}
+
+/* How the values are stored, as far as the format leaves a choice. */
+static void choose_storage(const char *path, const ppm_output_options *options,
+                           const uint32_t *crop, ppmi_image_file *file)
+{
+    const ppmi_output_format *const format = ppmi_imageio_format_of_output(path);
+    const bool has_choice = (format->stores & 1u << PPMI_STORE_U16) != 0;
+    if (has_choice && options->bits == 8) file->store = PPMI_STORE_U8;
+    if (has_choice && options->bits == 16) file->store = PPMI_STORE_U16;
+    file->is_dithered = has_choice && options->dither == PPM_DITHER_DEFAULT;
+    file->jpeg_quality = options->jpeg_quality;
+    file->x = crop[0];
+    file->y = crop[1];
+}
+
 static ppm_status write_display(ppm_context *context, const ppm_color *color,
                                 const ppmi_working_space *space, const char *path,
-                                const ppm_output_options *options, ppmi_image_file *file,
-                                float *rgba)
+                                const ppm_output_options *options, const uint32_t *crop,
+                                ppmi_image_file *file, float *rgba)
 {
     const size_t pixel_count = (size_t)file->width * file->height;
     const bool is_transparent = unpremultiply(rgba, pixel_count);
     const ppmi_view_choice choice = view_of(options);
     const ppm_status status = ppmi_color_show(context, color, &choice, space, rgba, pixel_count);
     if (status != PPM_STATUS_OK) return status;
+    choose_storage(path, options, crop, file);
     if (!is_transparent) {
         drop_alpha(rgba, pixel_count);
         file->channels = 3;
@@ -143,6 +193,8 @@ static ppm_status write_display(ppm_context *context, const ppm_color *color,
     ppmi_output_header header;
     ppmi_output_header_init_display(&header);
     ppmi_output_header_add_origin(&header, options->copyright, NULL);
+    uint8_t icc[PPMI_ICC_BYTES_MAX];
+    tag_colours(context, color, path, &choice, icc, file);
     file->attributes = header.attributes;
     file->attribute_count = header.count;
     return ppmi_imageio_write_file(context, path, file);
@@ -169,7 +221,7 @@ static ppm_status write_for_display(ppm_context *context, const ppm_render *rend
     ppm_status status = ppm_render_read_image(render, rgba, value_count);
     if (status == PPM_STATUS_OK) {
         status = write_display(context, color, &ppmi_render_scene(render)->working, path, options,
-                               &file, rgba);
+                               crop, &file, rgba);
     }
     ppmi_free(context, rgba);
     return status;

@@ -110,8 +110,11 @@ static ppm_status to_working_space(ppm_context *context, const ppm_color *color,
                                    ppmi_pixels *pixels, ppmi_image *image)
 {
     const ppmi_color_input input = ppmi_color_choose_input(
-        color, desc->path ? desc->path : desc->name, pixels->f32 && pixels->is_linear,
-        *pixels->color_space ? pixels->color_space : NULL,
+        color,
+        desc->path    ? desc->path
+        : desc->label ? desc->label
+                      : desc->name,
+        pixels->f32 && pixels->is_linear, *pixels->color_space ? pixels->color_space : NULL,
         pixels->has_chromaticities && pixels->is_linear ? pixels->chromaticities : NULL);
     const bool differs = ppmi_color_working_space(color)->differs;
     const size_t count = (size_t)pixels->width * pixels->height;

@@ -62,16 +62,18 @@ static ppm_status add_sky_image(ppm_scene *scene, const ppmi_sky *sky, float gro
 
 static ppm_status set_sky(ppm_scene *scene, const ppmi_sky *sky, const ppm_sun_sky_desc *desc)
 {
-    const ppmi_environment *before = &scene->environment;
+    const ppmi_environment before = scene->environment;
     ppm_environment_desc environment = {
         .size = sizeof environment,
         .radiance = {desc->factor, desc->factor, desc->factor},
-        .has_backdrop = before->has_backdrop,
-        .backdrop = {before->backdrop.x, before->backdrop.y, before->backdrop.z},
-        .light_group = before->light_group,
+        .light_group = before.light_group,
     };
-    const ppm_status status = add_sky_image(scene, sky, desc->ground_albedo, &environment.image);
-    return status == PPM_STATUS_OK ? ppm_scene_set_environment(scene, &environment) : status;
+    ppm_status status = add_sky_image(scene, sky, desc->ground_albedo, &environment.image);
+    if (status == PPM_STATUS_OK) status = ppm_scene_set_environment(scene, &environment);
+    if (status != PPM_STATUS_OK) return status;
+    scene->environment.has_backdrop = before.has_backdrop; /* is in the working space already */
+    scene->environment.backdrop = before.backdrop;
+    return PPM_STATUS_OK;
 }
 
 static ppm_status add_sun(ppm_scene *scene, const ppmi_sky *sky, float factor, ppm_light_id *out_id)

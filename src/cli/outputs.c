@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "clock.h"
+#include "rescue.h"
 
 static const double REFRESH_FIRST_S = 2.0;
 static const double REFRESH_MIN_S = 5.0;
@@ -107,6 +108,9 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
         .view = options->view,
         .look = options->look,
         .gamma = (float)options->gamma,
+        .bits = options->bits,
+        .dither = options->has_no_dither ? PPM_DITHER_OFF : PPM_DITHER_DEFAULT,
+        .jpeg_quality = (uint32_t)options->jpeg_quality,
         .command = outputs->command,
         .frames_per_second = options->fps,
         .depth = options->depth,
@@ -200,6 +204,27 @@ int outputs_write(const cli_outputs *outputs, const ppm_render *render)
         const ppm_status status =
             ppm_render_write(render, outputs->color, outputs->paths[i], &outputs->options);
         if (result == EXIT_DONE) result = exit_status_of(status, EXIT_OUTPUT);
+    }
+    return result;
+}
+
+int outputs_finish(const cli_outputs *outputs, cli_console *console, const ppm_render *render)
+{
+    int result = EXIT_DONE;
+    bool has_exr = false;
+    const char *lost = NULL;
+    for (size_t i = 0; i < outputs->count; i++) {
+        const char *const path = outputs->paths[i];
+        const ppm_status status = ppm_render_write(render, outputs->color, path, &outputs->options);
+        if (result == EXIT_DONE) result = exit_status_of(status, EXIT_OUTPUT);
+        if (rescue_is_exr(path)) {
+            has_exr = has_exr || status == PPM_STATUS_OK;
+        } else if (status != PPM_STATUS_OK && !lost) {
+            lost = path;
+        }
+    }
+    if (lost && !has_exr) {
+        rescue_picture(console, render, outputs->color, lost, &outputs->options);
     }
     return result;
 }

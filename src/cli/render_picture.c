@@ -147,7 +147,7 @@ int picture_render(const picture_task *task, ppm_render *render, picture_result 
     result.is_stopped = !is_whole && signals_stop_requested();
     result.is_dropped = task->is_whole_or_nothing && !is_whole;
     if (result.passes > 0 && !result.is_dropped) {
-        const int written = outputs_write(task->outputs, render);
+        const int written = outputs_finish(task->outputs, task->console, render);
         result.is_written = written == EXIT_DONE;
         status = first_failure(status, written);
     }

@@ -3,13 +3,16 @@
 #include "imageio/imageio.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "imageio/dither.h"
 #include "imageio/file.h"
 #include "imageio/format.h"
 #include "imageio/heif_check.h"
 #include "imageio/oiio_shim.h"
 #include "imageio/png_check.h"
+#include "imageio/png_cicp.h"
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
@@ -351,6 +354,15 @@ static void store_value(void *samples, size_t index, int32_t store, float value)
     }
 }
 
+static float noise_at(const ppmi_image_file *file, size_t pixel, float value)
+{
+    const float clamped = value > 0 ? fminf(value, 1) : 0, top = 255;
+    return clamped - value +
+           ppmi_dither(file->x + (uint32_t)(pixel % file->width),
+                       file->y + (uint32_t)(pixel / file->width), clamped * top, top) /
+               top;
+}
+
 /* The first channels of each pixel as the values that the file will hold. */
 static void *make_samples(ppm_context *context, const ppmi_image_file *file, uint32_t channels)
 {
@@ -360,10 +372,13 @@ static void *make_samples(ppm_context *context, const ppmi_image_file *file, uin
                                                                 : sizeof(float);
     void *const samples = ppmi_alloc(context, pixel_count, channels * sample_bytes);
     if (!samples) return NULL;
+    const bool is_dithered = file->is_dithered && file->store == PPMI_STORE_U8;
+    const uint32_t colors = channels % 2 == 0 ? channels - 1 : channels; /* alpha has no bands */
     for (size_t i = 0; i < pixel_count; i++) {
         for (uint32_t c = 0; c < channels; c++) {
-            store_value(samples, i * channels + c, file->store,
-                        file->pixels[i * file->channels + c]);
+            const float value = file->pixels[i * file->channels + c];
+            const float noise = is_dithered && c < colors ? noise_at(file, i, value) : 0.0f;
+            store_value(samples, i * channels + c, file->store, value + noise);
         }
     }
     return samples;
@@ -376,6 +391,29 @@ static ppm_status find_format(ppm_context *context, const char *path,
     if (*out_format) return PPM_STATUS_OK;
     return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
                      "%s: pictures can be written as .exr .png .jpg .jpeg .tif .tiff", path);
+}
+
+static ppm_status add_cicp(ppm_context *context, const char *path, const uint8_t cicp[4],
+                           void **bytes, size_t *byte_count)
+{
+    uint8_t *const tagged = ppmi_alloc(context, *byte_count + PPMI_PNG_CICP_BYTES, 1);
+    if (!tagged) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
+    }
+    ppmi_png_add_cicp(*bytes, *byte_count, cicp, tagged);
+    ppmi_free(context, *bytes);
+    *bytes = tagged;
+    *byte_count += PPMI_PNG_CICP_BYTES;
+    return PPM_STATUS_OK;
+}
+
+/* "jpeg:95" as OpenImageIO takes it, in text where another quality is asked for. */
+static const char *compression_of(const ppmi_output_format *format, const ppmi_image_file *file,
+                                  char *text, size_t size)
+{
+    if (strcmp(format->oiio, "jpeg") != 0 || file->jpeg_quality == 0) return format->compression;
+    snprintf(text, size, "jpeg:%u", (unsigned)file->jpeg_quality);
+    return text;
 }
 
 ppm_status ppmi_imageio_write_file(ppm_context *context, const char *path,
@@ -397,9 +435,14 @@ ppm_status ppmi_imageio_write_file(ppm_context *context, const char *path,
     }
     void *bytes = NULL;
     size_t byte_count = 0;
-    status = ppmi_oiio_encode(context, format->oiio, format->compression, path, &stored, samples,
-                              &bytes, &byte_count);
+    char compression[16];
+    status = ppmi_oiio_encode(context, format->oiio,
+                              compression_of(format, file, compression, sizeof compression), path,
+                              &stored, samples, &bytes, &byte_count);
     ppmi_free(context, samples);
+    if (status == PPM_STATUS_OK && file->has_cicp && strcmp(format->oiio, "png") == 0) {
+        status = add_cicp(context, path, file->cicp, &bytes, &byte_count);
+    }
     if (status == PPM_STATUS_OK) {
         status = ppmi_imageio_file_replace(context, path, bytes, byte_count);
     }

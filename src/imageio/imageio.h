@@ -2,6 +2,7 @@
 #ifndef PPMI_IMAGEIO_H
 #define PPMI_IMAGEIO_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -75,6 +76,16 @@ typedef struct ppmi_image_file {
     const float *pixels;
     const char *const *channel_names; /* channels names, or NULL: Y, Y A, R G B, R G B A */
     int32_t store;                    /* PPMI_STORE_ */
+    bool is_dithered;                 /* U8: noise before rounding, by the place in the picture */
+    uint32_t jpeg_quality;            /* 1 .. 100; 0: 95 */
+    /* What the values are, as the formats have it: "sRGB" or NULL; an ICC profile or NULL (not in a
+     * PNG file that says sRGB: one excludes the other); code points of H.273 (PNG) where has_cicp.
+     */
+    const char *color_space;
+    const uint8_t *icc;
+    size_t icc_bytes;
+    bool has_cicp;
+    uint8_t cicp[4];
     uint32_t attribute_count;
     const ppmi_image_attribute *attributes;
 } ppmi_image_file;

@@ -269,6 +269,10 @@ static ImageSpec make_spec(const ppmi_image_file &file, const char *compression)
     if (!spec.format.is_floating_point()) spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("jpeg:subsampling", "4:4:4");
     spec.attribute("DateTime", ""); /* else the time of writing: equal pictures, unequal files */
+    if (file.color_space) spec.attribute("oiio:ColorSpace", file.color_space);
+    if (file.icc) {
+        spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, (int)file.icc_bytes), file.icc);
+    }
     for (uint32_t i = 0; i < file.attribute_count; i++)
         set_attribute(spec, file.attributes[i]);
     return spec;

@@ -13,7 +13,7 @@ static ppm_status check_attributes(ppm_context *context, const merge_source *a,
         const char *name, *what;
     } attributes[] = {
         {"ppm:scene", "scenes"},
-        {"ppm:view", "cameras"},
+        {"ppm:cameraDigest", "cameras"},
         {"ppm:camera", "cameras"},
         {"ppm:integrator", "integrators"},
         {"ppm:frame", "frames"},

@@ -415,8 +415,9 @@ ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
 
 static bool is_decoration(const ppmi_material *material)
 {
+    const float one = 1.00001f; /* a working space rounds */
     return material->desc.emission_texture.image > 0 &&
-           vec3_max_component(vec3_load(material->desc.emission)) <= 1.0f;
+           vec3_max_component(vec3_load(material->desc.emission)) <= one;
 }
 
 static uint64_t emissive_element_count(const ppm_scene *scene, bool with_decoration)

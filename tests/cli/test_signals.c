@@ -34,6 +34,38 @@ static void assert_complete(const char *path, uint32_t width, uint32_t height)
     ppmi_imageio_pixels_free(NULL, &pixels);
 }
 
+/* A folder takes the place of the file while the program renders. */
+static void a_picture_for_display_that_fails_is_saved_as_exr(void **state)
+{
+    (void)state;
+    test_process process;
+    start_program(&process, ENDLESS "-o lost.png tiny.gltf");
+    wait_for_text(&process, "pass 4/");
+    remove("lost.png"); /* may have been refreshed */
+    assert_int_equal(mkdir("lost.png", 0777), 0);
+    kill(process.pid, SIGINT);
+    assert_int_equal(wait_for_end(&process), 3);
+    assert_contains(process.err, "lost.png: not written; the picture is saved as lost.exr");
+    assert_complete("lost.exr", 32, 16);
+    assert_int_equal(rmdir("lost.png"), 0);
+    assert_int_equal(remove("lost.exr"), 0);
+}
+
+/* Files end at 512 or 1024 bytes: less than any of these takes. */
+static void a_full_disk_leaves_nothing_half_written(void **state)
+{
+    (void)state;
+    test_process process;
+    start_wrapped_program(&process, "ulimit -f 1;",
+                          "-s 64x64 -n 1 -p 4096 -o full.png -o full.exr tiny.gltf");
+    assert_int_equal(wait_for_end(&process), 3);
+    assert_contains(process.err, "full.png");
+    assert_contains(process.err, "could not be saved beside it either");
+    assert_int_equal(access("full.png", F_OK), -1);
+    assert_int_equal(access("full.exr", F_OK), -1);
+    assert_int_equal(access("full.png.exr", F_OK), -1);
+}
+
 static void assert_stops_with_pictures(int number, const char *options)
 {
     char arguments[256];
@@ -156,6 +188,8 @@ static void pictures_are_complete_from_the_moment_they_appear(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_picture_for_display_that_fails_is_saved_as_exr),
+        cmocka_unit_test(a_full_disk_leaves_nothing_half_written),
         cmocka_unit_test(an_interrupt_leaves_the_picture_so_far),
         cmocka_unit_test(a_termination_leaves_the_picture_so_far),
         cmocka_unit_test(a_signal_while_the_scene_is_read_ends_at_once),

@@ -76,7 +76,7 @@ static void write_render(const char *path, render_file file)
     const ppmi_image_attribute attributes[] = {
         {.name = "ppm:options", .type = PPMI_ATTRIBUTE_STRING, .text = file.options},
         {.name = "ppm:scene", .type = PPMI_ATTRIBUTE_STRING, .text = file.scene},
-        {.name = "ppm:view", .type = PPMI_ATTRIBUTE_STRING, .text = file.view},
+        {.name = "ppm:cameraDigest", .type = PPMI_ATTRIBUTE_STRING, .text = file.view},
         {.name = "ppm:integrator", .type = PPMI_ATTRIBUTE_STRING, .text = file.integrator},
         {.name = "ppm:passes", .type = PPMI_ATTRIBUTE_INT, .integer = file.passes},
         {.name = "ppm:photons", .type = PPMI_ATTRIBUTE_INT, .integer = file.photons},
@@ -172,7 +172,7 @@ static void files_that_do_not_belong_together_are_told_apart(void **state)
     assert_refused("-o all.exr a.exr scene.exr", 2,
                    "different scenes: ppm:scene is 'abc' and 'xyz'");
     assert_refused("-o all.exr a.exr view.exr", 2,
-                   "different cameras: ppm:view is 'def' and 'xyz'");
+                   "different cameras: ppm:cameraDigest is 'def' and 'xyz'");
     assert_refused("-o all.exr a.exr options.exr", 2, "different options: width=5 and width=6");
     assert_refused("-o all.exr a.exr more.exr", 2,
                    "different options: nothing and transparent=yes");

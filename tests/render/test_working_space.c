@@ -316,12 +316,18 @@ static void a_sky_is_converted(void **state)
     float zenith[2][3];
     for (int k = 0; k < 2; k++) {
         open_scene(NULL, k == 0 ? NULL : "ACEScg", NULL);
+        const ppm_environment_desc backdrop = {
+            .size = sizeof backdrop, .has_backdrop = 1, .backdrop = {0.9f, 0.1f, 0.02f}};
+        assert_int_equal(ppm_scene_set_environment(test.scene, &backdrop), PPM_STATUS_OK);
         ppm_sun_sky_desc desc;
         ppm_sun_sky_desc_init(&desc);
         assert_int_equal(ppm_scene_add_sun_sky(test.scene, &desc, NULL), PPM_STATUS_OK);
         sun[k] = test.scene->punctuals[0].intensity;
         memcpy(zenith[k], test.scene->images[0].f32, sizeof zenith[k]);
     }
+    float kept[3]; /* converted once, when it was set */
+    vec3_store(kept, test.scene->environment.backdrop);
+    assert_is_acescg(kept, 1.0);
     const double sky_in[3] = {(double)zenith[0][0], (double)zenith[0][1], (double)zenith[0][2]};
     const double sun_in[3] = {(double)sun[0].x, (double)sun[0].y, (double)sun[0].z};
     double expected[3];
@@ -379,6 +385,33 @@ static void a_pattern_gives_a_texture_its_space(void **state)
     image = add_file("wood.png");
     assert_non_null(image->u8); /* stays as it is, and is converted where it is looked up */
     assert_true(image->is_srgb && image->is_rec709);
+}
+
+/* As in a .glb. */
+static void an_embedded_texture_goes_by_its_label(void **state)
+{
+    (void)state;
+    static const float rgb[3] = {0.8f, 0.4f, 0.2f};
+    const ppm_texture_space rule = {"wood_*", "lin_ap1"};
+    static const char *const labels[] = {"wood_ap1", NULL};
+    static uint8_t bytes[4096];
+    write_colour("a.png", PPMI_STORE_U8, rgb, NULL);
+    FILE *const file = fopen(scratch_path("a.png"), "rb");
+    assert_non_null(file);
+    const size_t count = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    open_scene(NULL, "ACEScg", &rule);
+    for (int i = 0; i < 2; i++) {
+        const ppm_image_desc desc = {.size = sizeof desc,
+                                     .name = "a.glb: images[0]",
+                                     .role = PPM_IMAGE_COLOR,
+                                     .bytes = bytes,
+                                     .byte_count = count,
+                                     .label = labels[i]};
+        ppm_image_id id = 0;
+        assert_int_equal(ppm_scene_add_image(test.scene, &desc, &id), PPM_STATUS_OK);
+        assert_true((test.scene->images[id - 1].f32 != NULL) == (i == 0));
+    }
 }
 
 static void a_space_of_data_leaves_a_texture_alone(void **state)
@@ -593,6 +626,7 @@ int main(void)
         TEST(grey_fog_stays_and_coloured_fog_keeps_what_it_leaves),
         TEST(a_sky_is_converted),
         TEST(a_pattern_gives_a_texture_its_space),
+        TEST(an_embedded_texture_goes_by_its_label),
         TEST(a_space_of_data_leaves_a_texture_alone),
         TEST(an_unknown_space_of_a_pattern_is_named),
         TEST(a_float_picture_has_the_primaries_that_it_says),
