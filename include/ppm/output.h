@@ -56,9 +56,12 @@ PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
  *                      the whole picture the display window.
  *                      Header: chromaticities, colorInteropID, PixelAspectRatio, Software,
  *                      ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed,
- *                      ppm:camera, ppm:command; where given, the copyright as OpenEXR's "owner"
- *                      and the scene's metadata as ppm:xmp; of a frame ppm:frame, ppm:time
- *                      (seconds), framesPerSecond
+ *                      ppm:camera, ppm:command; OpenEXR's worldToCamera, worldToNDC,
+ *                      nominalFocalLength (mm, for a sensor of ppm:sensor_mm), aperture, focus,
+ *                      screenWindowCenter, screenWindowWidth; ppm:sceneDigest, ppm:cameraDigest,
+ *                      ppm:seconds; those of Cryptomatte 1.2; where given, the copyright as
+ *                      OpenEXR's "owner" and the scene's metadata as ppm:xmp; of a frame ppm:frame,
+ *                      ppm:time (seconds), framesPerSecond
  *   .png .jpg .tif     8-bit (16-bit TIFF), through the display and view of color. The crop alone.
  *                      Header: Software, Copyright
  * color may be NULL for .exr. options may be NULL.
