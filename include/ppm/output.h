@@ -59,10 +59,14 @@ PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
  *   .exr               scene-linear in the scene's working space, all layers of the session: the
  *                      picture as R, G, B, A, depth as Z, the others as LAYER.CHANNEL
  *                      (docs/compositing.md); the view does not apply. With a crop: its pixels are
- *                      the data window, the whole picture the display window. Header:
- * chromaticities, colorInteropID (of known spaces), ppm:workingSpace, PixelAspectRatio, Software,
- * ppm:version, ppm:options, ppm:integrator, ppm:passes, ppm:photons, ppm:seed, ppm:camera,
- * ppm:command; with color ppm:colorConfig, ppm:display, ppm:view, ppm:look, ppm:exposure,
+ *                      the data window, the whole picture the display window.
+ *                      Header: chromaticities, colorInteropID (of known spaces),
+ *                      ppm:workingSpace, PixelAspectRatio, Software, ppm:version, ppm:options,
+ *                      ppm:integrator, ppm:passes, ppm:photons, ppm:seed, ppm:camera, ppm:command;
+ *                      OpenEXR's worldToCamera, worldToNDC, nominalFocalLength (mm, for a sensor of
+ *                      ppm:sensor_mm), aperture, focus, screenWindowCenter, screenWindowWidth;
+ *                      ppm:sceneDigest, ppm:cameraDigest, ppm:seconds; those of Cryptomatte 1.2;
+ *                      with color ppm:colorConfig, ppm:display, ppm:view, ppm:look, ppm:exposure,
  *                      ppm:gamma; where given, the copyright as OpenEXR's "owner" and the scene's
  *                      metadata as ppm:xmp; of a frame ppm:frame, ppm:time (seconds),
  *                      framesPerSecond

@@ -98,7 +98,7 @@ static void add_digests(ppmi_output_header *header, const ppm_render *render,
     ppmi_camera_digest(&scene->cameras[camera - 1], &view);
     ppmi_digest_write(&what, facts->scene);
     ppmi_digest_write(&view, facts->view);
-    ppmi_output_header_add(header, "ppm:scene", PPMI_ATTRIBUTE_STRING)->text = facts->scene;
+    ppmi_output_header_add(header, "ppm:sceneDigest", PPMI_ATTRIBUTE_STRING)->text = facts->scene;
     ppmi_output_header_add(header, "ppm:cameraDigest", PPMI_ATTRIBUTE_STRING)->text = facts->view;
 }
 

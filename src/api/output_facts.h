@@ -16,7 +16,7 @@ typedef struct ppmi_output_facts {
 } ppmi_output_facts;
 
 /* Adds OpenEXR's standard attributes of a camera (worldToCamera, worldToNDC, screenWindowCenter,
- * screenWindowWidth, nominalFocalLength, aperture, focus), the digests ppm:scene and
+ * screenWindowWidth, nominalFocalLength, aperture, focus), the digests ppm:sceneDigest and
  * ppm:cameraDigest, and ppm:seconds. */
 void ppmi_output_header_add_facts(ppmi_output_header *header, const ppm_render *render,
                                   ppmi_output_facts *facts);

@@ -82,7 +82,7 @@ static ppm_status read_seeds(ppm_context *context, merge_source *source)
 
 static ppm_status read_header(ppm_context *context, merge_source *source)
 {
-    static const char *const needed[] = {"ppm:integrator", "ppm:options", "ppm:scene",
+    static const char *const needed[] = {"ppm:integrator", "ppm:options", "ppm:sceneDigest",
                                          "ppm:cameraDigest"};
     char buffer[32];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {

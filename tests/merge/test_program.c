@@ -75,7 +75,7 @@ static void write_render(const char *path, render_file file)
     ppmi_layered_part parts[CHANNELS];
     const ppmi_image_attribute attributes[] = {
         {.name = "ppm:options", .type = PPMI_ATTRIBUTE_STRING, .text = file.options},
-        {.name = "ppm:scene", .type = PPMI_ATTRIBUTE_STRING, .text = file.scene},
+        {.name = "ppm:sceneDigest", .type = PPMI_ATTRIBUTE_STRING, .text = file.scene},
         {.name = "ppm:cameraDigest", .type = PPMI_ATTRIBUTE_STRING, .text = file.view},
         {.name = "ppm:integrator", .type = PPMI_ATTRIBUTE_STRING, .text = file.integrator},
         {.name = "ppm:passes", .type = PPMI_ATTRIBUTE_INT, .integer = file.passes},
@@ -170,7 +170,7 @@ static void files_that_do_not_belong_together_are_told_apart(void **state)
 {
     (void)state;
     assert_refused("-o all.exr a.exr scene.exr", 2,
-                   "different scenes: ppm:scene is 'abc' and 'xyz'");
+                   "different scenes: ppm:sceneDigest is 'abc' and 'xyz'");
     assert_refused("-o all.exr a.exr view.exr", 2,
                    "different cameras: ppm:cameraDigest is 'def' and 'xyz'");
     assert_refused("-o all.exr a.exr options.exr", 2, "different options: width=5 and width=6");
@@ -288,7 +288,7 @@ static void the_header_adds_up(void **state)
     assert_attribute("abc.exr", "ppm:photons", "9000000000");
     assert_attribute("abc.exr", "ppm:seconds", "4.5");
     assert_attribute("abc.exr", "ppm:seeds", "1 2 3");
-    assert_attribute("abc.exr", "ppm:scene", "abc");
+    assert_attribute("abc.exr", "ppm:sceneDigest", "abc");
     assert_attribute("abc.exr", "ppm:options", "integrator=sppm width=5 crop=0,0,5,3");
     assert_attribute("abc.exr", "ppm:merge", "ppm-merge -o abc.exr c.exr a.exr b.exr");
 }
