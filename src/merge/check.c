@@ -12,13 +12,13 @@ static ppm_status check_attributes(ppm_context *context, const merge_source *a,
     static const struct {
         const char *name, *what;
     } attributes[] = {
+        {"ppm:workingSpace", "colour spaces"}, /* first: all colours of the scene differ with it */
+        {"colorInteropID", "colour spaces"},
+        {"ppm:frame", "frames"}, /* likewise: what moves is elsewhere */
         {"ppm:sceneDigest", "scenes"},
         {"ppm:cameraDigest", "cameras"},
         {"ppm:camera", "cameras"},
         {"ppm:integrator", "integrators"},
-        {"ppm:frame", "frames"},
-        {"colorInteropID", "colour spaces"},
-        {"ppm:workingSpace", "colour spaces"},
     };
     char a_buffer[32], b_buffer[32];
     for (size_t i = 0; i < sizeof attributes / sizeof attributes[0]; i++) {

@@ -24,7 +24,8 @@ static const char *const names[CHANNELS] = {"R",          "caustics.R", "varianc
 
 /* What a render's file says; values are the same in all pixels. */
 typedef struct render_file {
-    const char *options, *scene, *view, *integrator;
+    const char *options, *scene, *view, *integrator, *working_space;
+    int64_t frame;
     int64_t passes, photons, seed;
     float seconds;
     float values[CHANNELS];
@@ -47,6 +48,7 @@ static render_file plain(int64_t seed)
                          .scene = "abc",
                          .view = "def",
                          .integrator = "sppm",
+                         .working_space = "lin_rec709",
                          .passes = 8,
                          .photons = 1000,
                          .seed = seed,
@@ -78,6 +80,8 @@ static void write_render(const char *path, render_file file)
         {.name = "ppm:sceneDigest", .type = PPMI_ATTRIBUTE_STRING, .text = file.scene},
         {.name = "ppm:cameraDigest", .type = PPMI_ATTRIBUTE_STRING, .text = file.view},
         {.name = "ppm:integrator", .type = PPMI_ATTRIBUTE_STRING, .text = file.integrator},
+        {.name = "ppm:workingSpace", .type = PPMI_ATTRIBUTE_STRING, .text = file.working_space},
+        {.name = "ppm:frame", .type = PPMI_ATTRIBUTE_INT, .integer = file.frame},
         {.name = "ppm:passes", .type = PPMI_ATTRIBUTE_INT, .integer = file.passes},
         {.name = "ppm:photons", .type = PPMI_ATTRIBUTE_INT, .integer = file.photons},
         {.name = "ppm:seed", .type = PPMI_ATTRIBUTE_INT, .integer = file.seed},
@@ -173,6 +177,9 @@ static void files_that_do_not_belong_together_are_told_apart(void **state)
                    "different scenes: ppm:sceneDigest is 'abc' and 'xyz'");
     assert_refused("-o all.exr a.exr view.exr", 2,
                    "different cameras: ppm:cameraDigest is 'def' and 'xyz'");
+    assert_refused("-o all.exr a.exr space.exr", 2,
+                   "different colour spaces: ppm:workingSpace is 'lin_rec709' and 'ACEScg'");
+    assert_refused("-o all.exr a.exr frame.exr", 2, "different frames: ppm:frame is '0' and '7'");
     assert_refused("-o all.exr a.exr options.exr", 2, "different options: width=5 and width=6");
     assert_refused("-o all.exr a.exr more.exr", 2,
                    "different options: nothing and transparent=yes");
@@ -338,6 +345,12 @@ static void write_odd_ones(void)
     render_file file = known(5);
     file.scene = "xyz";
     write_render("scene.exr", file);
+    file.working_space = "ACEScg";
+    write_render("space.exr", file);
+    file = known(5);
+    file.scene = "xyz";
+    file.frame = 7;
+    write_render("frame.exr", file);
     file = known(5);
     file.view = "xyz";
     write_render("view.exr", file);
