@@ -54,7 +54,7 @@ typedef struct ppmi_walker {
     const struct ppmi_origin *origin; /* of the next segments of an eye path, which then sees lights
                                          with an extent on the way; NULL: photons and probes */
     const struct ppmi_lamp_witness *lamp_witness; /* is told of them one by one; or NULL */
-    ppmi_differential differential;   /* of the path's last ray; unknown for photons */
+    ppmi_differential differential;               /* of the path's last ray; unknown for photons */
 } ppmi_walker;
 
 /* Starts a path, outside of all solids: index counts paths of the stream, stratified_index those

@@ -428,7 +428,7 @@ static void variance_is_that_of_the_picture(void **state)
 {
     (void)state;
     enum { SIDE = 8, PIXELS = SIDE * SIDE, PASSES = 8 };
-    const uint32_t seeds = TEST_EFFORT(50);
+    const uint32_t seeds = TEST_EFFORT(30);
     build_coloured_lights();
     static const int32_t integrators[] = {PPM_INTEGRATOR_PATH, PPM_INTEGRATOR_SPPM};
     for (int k = 0; k < 2; k++) {
