@@ -9,7 +9,7 @@
 
 /* What layers of light want to know of a photon (transport/light_layers.h). */
 typedef struct ppmi_photon_tag {
-    uint16_t group;      /* of its light */
+    uint32_t group;      /* of its light */
     uint8_t is_straight; /* from the light */
     uint8_t caustic[3];  /* share of its light that is a caustic where it is gathered, of 255 */
 } ppmi_photon_tag;

@@ -73,7 +73,7 @@ static uint8_t of_255(float share)
 static ppmi_photon_tag tag_of(const ppmi_photon_history *history, uint32_t group, bool is_in_medium)
 {
     const ppmi_vec3 caustic = ppmi_photon_history_caustic(history, is_in_medium);
-    return (ppmi_photon_tag){.group = (uint16_t)group,
+    return (ppmi_photon_tag){.group = group,
                              .is_straight = history->is_straight,
                              .caustic = {of_255(caustic.x), of_255(caustic.y), of_255(caustic.z)}};
 }
