@@ -26,9 +26,11 @@ render() {
 scene() {
     scene_name=$1 size=$2 small=$3
     shift 3
-    render "$scene_name" "sample_scenes/$scene_name.glb" -s "$size" -t 25 "$@"
+    model=sample_scenes/$scene_name.glb
+    [ -e "$model" ] || model=sample_scenes/$scene_name.obj
+    render "$scene_name" "$model" -s "$size" -t 25 "$@"
     for integrator in ppm sppm path; do
-        render "${scene_name}_$integrator" "sample_scenes/$scene_name.glb" -s "$small" -t 5 -i "$integrator" "$@"
+        render "${scene_name}_$integrator" "$model" -s "$small" -t 5 -i "$integrator" "$@"
     done
 }
 
@@ -37,6 +39,7 @@ scene ceramic_box 640x512 256x205
 scene pool 720x480 256x171
 scene glass_of_water 512x512 256x256
 scene glass_table 640x480 256x192
+scene still_life 640x480 256x192
 scene enclosed_lamp 640x480 256x192
 scene prism 720x450 256x160
 scene mirrors 720x480 256x171 --max-depth 64
