@@ -90,8 +90,8 @@ static const char *label_of(const ppmi_gltf_reader *reader, ppmi_gltf_span name,
     return label;
 }
 
-    /* Where the image is: its file, or the bytes of it. */
-    static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
+/* Where the image is: its file, or the bytes of it. */
+static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
 {
     *s = (source){.desc = {.size = sizeof s->desc, .role = role}};
     ppmi_gltf_place(s->place, "images[%zu]", index);

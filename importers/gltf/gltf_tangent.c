@@ -21,21 +21,6 @@ static int32_t find_uv_set(const ppmi_gltf_reader *reader, int32_t material)
     return from->layers.anisotropy > 0.0 ? 0 : -1;
 }
 
-/* Replaces *values, of width floats a vertex, by those of the copies. */
-static bool copy_array(ppm_context *context, float **values, size_t width,
-                       const ppmi_tangent_result *result)
-{
-    if (!*values) return true;
-    float *copies = ppmi_alloc(context, result->vertex_count, width * sizeof *copies);
-    if (!copies) return false;
-    for (size_t v = 0; v < result->vertex_count; ++v) {
-        memcpy(copies + v * width, *values + result->sources[v] * width, width * sizeof *copies);
-    }
-    ppmi_free(context, *values);
-    *values = copies;
-    return true;
-}
-
 static bool copy_sources(ppm_context *context, ppmi_gltf_geometry *g,
                          const ppmi_tangent_result *result)
 {
@@ -54,11 +39,12 @@ static bool take_vertices(ppm_context *context, ppmi_gltf_geometry *g,
                           const ppmi_tangent_result *result)
 {
     if (result->vertex_count == g->vertex_count) return true;
-    bool ok = copy_array(context, &g->positions, 3, result) &&
-              copy_array(context, &g->normals, 3, result) &&
-              copy_array(context, &g->colors, 4, result) && copy_sources(context, g, result);
+    bool ok = ppmi_tangent_spread(context, &g->positions, 3, result) &&
+              ppmi_tangent_spread(context, &g->normals, 3, result) &&
+              ppmi_tangent_spread(context, &g->colors, 4, result) &&
+              copy_sources(context, g, result);
     for (size_t i = 0; ok && i < PPM_MAX_UV_SETS; ++i) {
-        ok = copy_array(context, &g->uvs[i], 2, result);
+        ok = ppmi_tangent_spread(context, &g->uvs[i], 2, result);
     }
     g->vertex_count = result->vertex_count;
     return ok;

@@ -3,6 +3,7 @@
  * trusts the file (allow_outside); symbolic links in the folder are its owner's affair. Nothing is
  * ever fetched from a network. */
 #include "gltf/gltf_uri.h"
+#include "base/path.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -123,23 +124,6 @@ static bool has_scheme(const char *uri, size_t length)
     return false;
 }
 
-/* Whether the segments of a decoded path never go above where they start. */
-static bool stays_inside(const char *path)
-{
-    int depth = 0;
-    while (*path) {
-        const size_t length = strcspn(path, "/");
-        if (length == 2 && path[0] == '.' && path[1] == '.') {
-            if (--depth < 0) return false;
-        } else if (length > 0 && !(length == 1 && path[0] == '.')) {
-            ++depth;
-        }
-        path += length;
-        path += *path == '/';
-    }
-    return depth > 0;
-}
-
 /* The path in file:/path, file:///path or file://localhost/path (RFC 8089); NULL for another
  * machine's. */
 static const char *file_uri_path(const char *uri, size_t length)
@@ -178,7 +162,7 @@ static const char *path_fault(bool allow_outside, const char *path, size_t lengt
     if (memchr(path, 0, length)) return "the URI holds a zero byte";
     if (allow_outside) return NULL;
     if (path[0] == '/') return "absolute paths are not read, unless files outside are allowed";
-    return stays_inside(path)
+    return ppmi_path_stays_inside(path)
                ? NULL
                : "the path leaves the asset's folder; such are read only if files outside are "
                  "allowed";

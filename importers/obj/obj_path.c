@@ -5,29 +5,13 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "base/path.h"
 #include "obj/obj_reader.h"
 
 size_t ppmi_obj_folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? (size_t)(slash - path) + 1 : 0;
-}
-
-/* Whether the parts of a relative path never go above where they start. */
-static bool stays_inside(const char *path)
-{
-    int depth = 0;
-    while (*path) {
-        const size_t length = strcspn(path, "/");
-        if (length == 2 && path[0] == '.' && path[1] == '.') {
-            if (--depth < 0) return false;
-        } else if (length > 0 && !(length == 1 && path[0] == '.')) {
-            ++depth;
-        }
-        path += length;
-        path += *path == '/';
-    }
-    return depth > 0;
 }
 
 static bool is_absolute(const char *name)
@@ -95,7 +79,7 @@ static bool try_name(search *s, const place *where, const char *name)
 {
     memcpy(s->wanted, where->below, where->below_length);
     strcpy(s->wanted + where->below_length, name);
-    if (!s->reader->options->allow_outside && !stays_inside(s->wanted)) return false;
+    if (!s->reader->options->allow_outside && !ppmi_path_stays_inside(s->wanted)) return false;
     size_t at = where->root_length;
     memcpy(s->path, where->root, at);
     if (where->needs_slash) s->path[at++] = '/';

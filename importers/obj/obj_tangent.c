@@ -5,29 +5,15 @@
 #include "obj/obj_geometry.h"
 #include "tangent/tangent.h"
 
-/* Replaces *values, of width floats a vertex, by those of the copies. */
-static bool copy_array(ppm_context *context, float **values, size_t width,
-                       const ppmi_tangent_result *result)
-{
-    if (!*values) return true;
-    float *copies = ppmi_alloc(context, result->vertex_count, width * sizeof *copies);
-    if (!copies) return false;
-    for (size_t v = 0; v < result->vertex_count; ++v) {
-        memcpy(copies + v * width, *values + result->sources[v] * width, width * sizeof *copies);
-    }
-    ppmi_free(context, *values);
-    *values = copies;
-    return true;
-}
-
 static bool take_vertices(ppm_context *context, ppmi_obj_geometry *g,
                           const ppmi_tangent_result *result)
 {
     if (result->vertex_count == g->vertex_count) return true;
     g->vertex_count = result->vertex_count;
-    return copy_array(context, &g->positions, 3, result) &&
-           copy_array(context, &g->normals, 3, result) && copy_array(context, &g->uvs, 2, result) &&
-           copy_array(context, &g->colors, 4, result);
+    return ppmi_tangent_spread(context, &g->positions, 3, result) &&
+           ppmi_tangent_spread(context, &g->normals, 3, result) &&
+           ppmi_tangent_spread(context, &g->uvs, 2, result) &&
+           ppmi_tangent_spread(context, &g->colors, 4, result);
 }
 
 bool ppmi_obj_add_tangents(ppm_context *context, ppmi_obj_geometry *g)

@@ -6,24 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "setup/setup_file.h"
-
-/* Whether the parts of a relative path never go above where they start. */
-static bool stays_inside(const char *path)
-{
-    int depth = 0;
-    while (*path) {
-        const size_t length = strcspn(path, "/");
-        if (length == 2 && path[0] == '.' && path[1] == '.') {
-            if (--depth < 0) return false;
-        } else if (length > 0 && !(length == 1 && path[0] == '.')) {
-            ++depth;
-        }
-        path += length;
-        path += *path == '/';
-    }
-    return true;
-}
 
 static ppm_status check_file(const ppmi_setup_value *value, const char *path)
 {
@@ -44,7 +28,7 @@ ppm_status ppmi_setup_find_file(const ppmi_setup_value *value, const char *name,
     ppm_setup *setup = value->setup;
     const char *slash = strrchr(setup->path, '/');
     const size_t folder = slash && name[0] != '/' ? (size_t)(slash - setup->path) + 1 : 0;
-    if (!setup->allows_outside && (name[0] == '/' || !stays_inside(name))) {
+    if (!setup->allows_outside && (name[0] == '/' || !ppmi_path_stays_inside(name))) {
         return ppmi_setup_fail(value,
                                "\"%s\" lies outside of the setup file's folder; such files "
                                "are read only if that is allowed (--allow-outside)",

@@ -420,3 +420,17 @@ void ppmi_tangent_result_deinit(ppm_context *context, ppmi_tangent_result *resul
     ppmi_free(context, result->indices);
     *result = (ppmi_tangent_result){0};
 }
+
+bool ppmi_tangent_spread(ppm_context *context, float **values, size_t width,
+                         const ppmi_tangent_result *result)
+{
+    if (!*values) return true;
+    float *copies = ppmi_alloc(context, result->vertex_count, width * sizeof *copies);
+    if (!copies) return false;
+    for (size_t v = 0; v < result->vertex_count; ++v) {
+        memcpy(copies + v * width, *values + result->sources[v] * width, width * sizeof *copies);
+    }
+    ppmi_free(context, *values);
+    *values = copies;
+    return true;
+}

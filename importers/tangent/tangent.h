@@ -44,6 +44,10 @@ typedef struct ppmi_tangent_result {
  * number of threads. Returns OK or OUT_OF_MEMORY, unreported. */
 ppm_status ppmi_tangent_compute(ppm_context *context, const ppmi_tangent_mesh *mesh,
                                 ppmi_tangent_result *out);
+/* Replaces *values, of width floats a vertex of the mesh, by those of the result's vertices; NULL
+ * stays NULL. False when memory is out: they stay as they were. */
+bool ppmi_tangent_spread(ppm_context *context, float **values, size_t width,
+                         const ppmi_tangent_result *result);
 void ppmi_tangent_result_deinit(ppm_context *context, ppmi_tangent_result *result);
 
 #endif

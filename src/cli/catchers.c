@@ -3,24 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/suggest.h"
+#include "nodes.h"
 
 /* ---- choice ---------------------------------------------------------------------------------- */
-
-static int no_such_node(cli_console *console, const ppm_scene *scene, const char *text)
-{
-    const uint32_t count = ppm_scene_instance_count(scene);
-    const char **names = calloc((size_t)count + 1, sizeof *names);
-    if (!names) return EXIT_RESOURCES;
-    for (uint32_t i = 0; i < count; i++)
-        names[i] = ppm_scene_instance_name(scene, i + 1);
-    const char *const nearest = ppmi_suggest(text, names, count);
-    console_message(console, PPM_LOG_ERROR,
-                    "--catcher: no node with a surface is called '%s'%s%s%s", text,
-                    nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
-    free(names);
-    return EXIT_USAGE;
-}
 
 static int choose_node(cli_console *console, ppm_scene *scene, const char *text)
 {
@@ -30,7 +15,7 @@ static int choose_node(cli_console *console, ppm_scene *scene, const char *text)
         if (ppm_scene_set_instance_catcher(scene, id, 1) != PPM_STATUS_OK) return EXIT_RESOURCES;
         is_found = true;
     }
-    return is_found ? EXIT_DONE : no_such_node(console, scene, text);
+    return is_found ? EXIT_DONE : nodes_complain(console, scene, "--catcher", "no node", text);
 }
 
 int catchers_choose(cli_console *console, ppm_scene *scene, const cli_options *options)

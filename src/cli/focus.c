@@ -2,10 +2,9 @@
 #include "focus.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/suggest.h"
+#include "nodes.h"
 #include "options.h"
 #include "values.h"
 
@@ -34,21 +33,6 @@ bool focus_is_node(const ppm_scene *scene, const char *text)
     return find_box(scene, text, low, high);
 }
 
-static int no_such_node(cli_console *console, const ppm_scene *scene, const char *text)
-{
-    const uint32_t count = ppm_scene_instance_count(scene);
-    const char **names = calloc((size_t)count + 1, sizeof *names);
-    if (!names) return EXIT_RESOURCES;
-    for (uint32_t i = 0; i < count; i++)
-        names[i] = ppm_scene_instance_name(scene, i + 1);
-    const char *const nearest = ppmi_suggest(text, names, count);
-    console_message(console, PPM_LOG_ERROR,
-                    "--focus: '%s' is neither a distance nor a node with a surface%s%s%s", text,
-                    nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
-    free(names);
-    return EXIT_USAGE;
-}
-
 /* From the camera to the middle of the box, along -z of the camera. */
 static double distance_along_axis(const ppm_scene *scene, ppm_camera_id camera, const float low[3],
                                   const float high[3])
@@ -72,7 +56,7 @@ int focus_find(cli_console *console, const ppm_scene *scene, ppm_camera_id camer
     if (is_node) {
         distance = distance_along_axis(scene, camera, low, high);
     } else if (!value_parse_real(text, &distance)) {
-        return no_such_node(console, scene, text);
+        return nodes_complain(console, scene, "--focus", "neither a distance nor a node", text);
     }
     if (distance >= NEAREST_M && distance <= FARTHEST_M) {
         *out_distance_m = (float)distance;
