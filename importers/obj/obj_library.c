@@ -15,6 +15,7 @@ typedef struct library {
     char *name; /* of the next material, as UTF-8; NULL: there is none */
     size_t name_line;
     uint32_t given;                        /* by the statements of the current material */
+    uint32_t greys;                        /* those of them that are colours of one number */
     size_t stray;                          /* statements before the first newmtl */
     ppmi_obj_map maps[PPMI_OBJ_MAP_COUNT]; /* of the current material */
     ppm_status status;                     /* the first failure */
@@ -66,6 +67,36 @@ static void note_ignored(library *l, const char *word, size_t length)
     ppmi_free(r->context, text);
 }
 
+/* What a colour statement gives that the parser does not understand: one number is a grey (MTL,
+ * "If only r is specified, then g, and b are assumed to be equal to r"); a spectrum's file or a
+ * colour by CIE XYZ is no RGB, and is left out. False for the latter. */
+static bool check_color(library *l, uint32_t bit, const char *text, size_t length)
+{
+    const uint32_t colors = PPMI_OBJ_HAS_KD | PPMI_OBJ_HAS_KS | PPMI_OBJ_HAS_KE | PPMI_OBJ_HAS_TF;
+    float rgb[3];
+    if (!(bit & colors)) return true;
+    const size_t count = ppmi_obj_parse_floats(text, length, rgb, 3);
+    if (count == 1) {
+        l->greys |= bit;
+    } else {
+        l->greys &= ~bit;
+    }
+    return count > 0;
+}
+
+static void spread_grey(uint32_t greys, uint32_t bit, float color[3])
+{
+    if (greys & bit) color[1] = color[2] = color[0];
+}
+
+static void spread_greys(uint32_t greys, ppmi_obj_mtl *mtl)
+{
+    spread_grey(greys, PPMI_OBJ_HAS_KD, mtl->diffuse);
+    spread_grey(greys, PPMI_OBJ_HAS_KS, mtl->specular);
+    spread_grey(greys, PPMI_OBJ_HAS_KE, mtl->emission);
+    spread_grey(greys, PPMI_OBJ_HAS_TF, mtl->transmittance);
+}
+
 /* Takes in a newmtl statement. */
 static void begin_material(library *l, const char *text, size_t length)
 {
@@ -94,6 +125,10 @@ static void take_statement(library *l, char *text, size_t length, char **out_tex
             set_status(l, ppmi_obj_out_of_memory(l->reader));
         }
         l->maps[map].line = l->lines.number;
+        return;
+    }
+    if (!check_color(l, given_by(word), rest, rest_length)) {
+        note_ignored(l, text, length);
         return;
     }
     l->given |= given_by(word);
@@ -161,9 +196,11 @@ static ppm_status read_material(library *l, uint32_t index)
     char *name = l->name;
     ppmi_obj_material material = {.library = index, .line = l->name_line};
     l->name = NULL;
-    l->given = 0;
-    ppm_status status =
-        ppmi_obj_mtl_create(r->context, l->lines.path, next_of_material, l, &material.mtl);
+    l->given = l->greys = 0;
+    ppmi_obj_mtl *mtl = NULL;
+    ppm_status status = ppmi_obj_mtl_create(r->context, l->lines.path, next_of_material, l, &mtl);
+    if (status == PPM_STATUS_OK) spread_greys(l->greys, mtl);
+    material.mtl = mtl;
     material.given = l->given;
     memcpy(material.maps, l->maps, sizeof material.maps);
     memset(l->maps, 0, sizeof l->maps);

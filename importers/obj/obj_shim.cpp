@@ -117,7 +117,7 @@ ppmi_obj_mtl *copy_material(const tinyobj::material_t &from)
     return m.release();
 }
 
-const ppmi_obj_mtl *load_material(ppmi_obj_next_fn next, void *user)
+ppmi_obj_mtl *load_material(ppmi_obj_next_fn next, void *user)
 {
     Statements buffer(next, user);
     std::istream stream(&buffer);
@@ -151,7 +151,7 @@ ppm_status ppmi_obj_parse(ppm_context *context, const char *file,
 }
 
 ppm_status ppmi_obj_mtl_create(ppm_context *context, const char *file, ppmi_obj_next_fn next,
-                               void *user, const ppmi_obj_mtl **out_mtl) noexcept
+                               void *user, ppmi_obj_mtl **out_mtl) noexcept
 {
     return guarded(context, file, [&] { *out_mtl = load_material(next, user); });
 }

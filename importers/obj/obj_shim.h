@@ -47,7 +47,7 @@ typedef struct ppmi_obj_mtl {
 
 /* Reads one material: its statements without newmtl. *out_mtl is valid until destroyed. */
 ppm_status ppmi_obj_mtl_create(ppm_context *context, const char *file, ppmi_obj_next_fn next,
-                               void *user, const ppmi_obj_mtl **out_mtl) PPMI_NOEXCEPT;
+                               void *user, ppmi_obj_mtl **out_mtl) PPMI_NOEXCEPT;
 void ppmi_obj_mtl_destroy(const ppmi_obj_mtl *mtl) PPMI_NOEXCEPT;
 
 /* Reads up to count numbers that are parted by blanks, in any locale; returns how many there

@@ -84,6 +84,23 @@ static void illum_3_and_5_are_mirrors_of_ks(void **state)
     assert_color(d->base_color, 1, 0, 0);
 }
 
+static void a_color_of_one_number_is_a_grey(void **state)
+{
+    const ppm_material_desc *d =
+        obj_import_material(*state, "Kd 0.1 0.2 0.3\nKd 0.25\nKe 2\nKs 0 0 0\nillum 1\n");
+    assert_color(d->base_color, 0.25, 0.25, 0.25);
+    assert_color(d->emission, 2, 2, 2);
+    d = obj_import_material(*state, "Kd 0.25\nKd 0.1 0.2 0.3\nillum 1\n");
+    assert_color(d->base_color, 0.1, 0.2, 0.3);
+}
+
+static void a_color_by_spectrum_or_xyz_is_left_out(void **state)
+{
+    const ppm_material_desc *d =
+        obj_import_material(*state, "Kd 0.1 0.2 0.3\nKd spectral red.rfl 1\nKd xyz 1 1 1\n");
+    assert_color(d->base_color, 0.1, 0.2, 0.3);
+}
+
 static void illum_4_6_7_and_9_are_solid_glass(void **state)
 {
     const char *const glasses[] = {
@@ -247,6 +264,8 @@ int main(void)
         TEST(ks_is_reflectance_in_steps_of_eight_percent),
         TEST(ns_is_roughness_by_walter),
         TEST(illum_3_and_5_are_mirrors_of_ks),
+        TEST(a_color_of_one_number_is_a_grey),
+        TEST(a_color_by_spectrum_or_xyz_is_left_out),
         TEST(illum_4_6_7_and_9_are_solid_glass),
         TEST(glass_without_ni_and_tf_is_clear_and_of_index_one_and_a_half),
         TEST(an_opaque_material_with_tf_is_no_glass),
