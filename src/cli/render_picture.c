@@ -154,7 +154,8 @@ int picture_render(const picture_task *task, ppm_render *render, picture_result 
     *out_result = result;
     if (result.passes == 0 && !result.is_stopped) return status;
     say_how_it_ended(task, render, &result);
-    if (task->is_first && result.passes > 0) {
+    /* what lies over a photograph is as bright as that */
+    if (task->is_first && result.passes > 0 && !task->plate) {
         brightness_advise(task->console, render, task->options->exposure_ev);
     }
     return status;
