@@ -2,12 +2,15 @@
  * photograph. */
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -132,6 +135,43 @@ static void a_catchers_brightness_is_not_judged(void **state)
     assert_null(strstr(result.err, advice));
 }
 
+/* Of layers a file is much larger than of the picture alone; the disk has room for the latter. */
+static void layers_without_room_cost_the_layers_only(void **state)
+{
+    (void)state;
+    test_process process;
+    start_wrapped_program(
+        &process, "ulimit -f 256;",
+        "-q -i path -s 64x64 -n 1 --aov all --exr-compression none -o full.exr tiny.gltf");
+    assert_int_equal(wait_for_end(&process), 3);
+    assert_contains(process.err, "full.exr: not written; the picture is saved as full.picture.exr");
+    assert_int_equal(access("full.exr", F_OK), -1);
+    ppmi_layered_input *input = NULL;
+    ppmi_layered_info info;
+    assert_int_equal(ppmi_layered_input_open(NULL, "full.picture.exr", &input, &info),
+                     PPM_STATUS_OK);
+    assert_int_equal(info.channel_count, 4);
+    assert_null(ppmi_layered_input_find(input, "cryptomatte/3ae39a5/manifest"));
+    ppmi_layered_input_close(NULL, input);
+}
+
+/* The folder is gone when the picture is to be written. */
+static void a_picture_without_its_folder_is_saved_in_the_current_one(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("gone", 0777), 0);
+    test_process process;
+    start_program(&process, "-i path -s 16x16 -n 1000000 -o gone/away.png tiny.gltf");
+    wait_for_text(&process, "pass 4/");
+    assert_int_equal(rename("gone", "moved"), 0);
+    assert_int_equal(kill(process.pid, SIGINT), 0);
+    assert_int_equal(wait_for_end(&process), 3);
+    assert_contains(process.err, "gone/away.png: not written; the picture is saved as away.exr");
+    assert_int_equal(access("away.exr", F_OK), 0);
+    remove("moved/away.png"); /* may have been refreshed before */
+    assert_int_equal(rmdir("moved"), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -139,6 +179,8 @@ int main(void)
         cmocka_unit_test(groups_of_a_file_add_up_to_its_picture),
         cmocka_unit_test(an_empty_catcher_is_clear),
         cmocka_unit_test(a_catchers_brightness_is_not_judged),
+        cmocka_unit_test(layers_without_room_cost_the_layers_only),
+        cmocka_unit_test(a_picture_without_its_folder_is_saved_in_the_current_one),
     };
     return cmocka_run_group_tests(tests, folder_setup, folder_teardown);
 }
