@@ -61,7 +61,8 @@ static void add_mesh(ppmi_digest *digest, const ppmi_mesh *mesh)
 
 static void add_instance(ppmi_digest *digest, const ppmi_instance *instance)
 {
-    const uint32_t facts[3] = {instance->mesh, instance->is_hidden, instance->motion_steps};
+    const uint32_t kind = (instance->is_hidden ? 1u : 0u) | (instance->is_catcher ? 2u : 0u);
+    const uint32_t facts[3] = {instance->mesh, kind, instance->motion_steps};
     ppmi_digest_add_text(digest, instance->name);
     ppmi_digest_add_text(digest, instance->asset);
     ppmi_digest_add_text(digest, instance->light_group);

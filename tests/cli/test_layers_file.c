@@ -121,6 +121,29 @@ static void an_empty_catcher_is_clear(void **state)
     assert_true(count > 10);
 }
 
+static void read_scene_digest(const char *path, char out[64])
+{
+    ppmi_layered_input *input = NULL;
+    ppmi_layered_info info;
+    assert_int_equal(ppmi_layered_input_open(NULL, path, &input, &info), PPM_STATUS_OK);
+    const ppmi_image_attribute *const scene = ppmi_layered_input_find(input, "ppm:scene");
+    assert_non_null(scene);
+    snprintf(out, 64, "%s", scene->text);
+    ppmi_layered_input_close(NULL, input);
+}
+
+/* ppm-merge goes by the digest: it would mix a picture with what lies over a photograph. */
+static void with_a_catcher_it_is_another_scene(void **state)
+{
+    (void)state;
+    char without[64], with[64];
+    run_well(QUICK "--transparent -o without.exr tiny.gltf");
+    run_well(QUICK "--catcher Floor -o with.exr tiny.gltf");
+    read_scene_digest("without.exr", without);
+    read_scene_digest("with.exr", with);
+    assert_string_not_equal(with, without);
+}
+
 /* What is to lie over a photograph is as bright as that. */
 static void a_catchers_brightness_is_not_judged(void **state)
 {
@@ -178,6 +201,7 @@ int main(void)
         cmocka_unit_test(a_catcher_that_is_not_there_is_refused),
         cmocka_unit_test(groups_of_a_file_add_up_to_its_picture),
         cmocka_unit_test(an_empty_catcher_is_clear),
+        cmocka_unit_test(with_a_catcher_it_is_another_scene),
         cmocka_unit_test(a_catchers_brightness_is_not_judged),
         cmocka_unit_test(layers_without_room_cost_the_layers_only),
         cmocka_unit_test(a_picture_without_its_folder_is_saved_in_the_current_one),
