@@ -19,7 +19,7 @@ enum { SUN = PPM_LIGHT_DIRECTIONAL };
 
 typedef struct light_words {
     ppmi_setup_pose pose;
-    const char *name, *profile;
+    const char *name, *profile, *light_group;
     int32_t kind;
     double candela, lumen, watt, lux, nit, factor, kelvin;
     float color[3];
@@ -81,6 +81,7 @@ static const ppmi_setup_key keys[] = {
     {"width", PPMI_SETUP_REAL, FIELD(width), 1e-6, 1e12},
     {"height", PPMI_SETUP_REAL, FIELD(height), 1e-6, 1e12},
     {"visible", PPMI_SETUP_FLAG, FIELD(visible)},
+    {"light_group", PPMI_SETUP_TEXT, FIELD(light_group)},
 };
 #undef FIELD
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
@@ -254,7 +255,8 @@ static ppm_status read_light(const ppmi_setup_value *light, light_words *words,
     *desc = (ppm_light_desc){.size = sizeof *desc,
                              .name = words->name ? words->name : "",
                              .kind = words->kind,
-                             .is_hidden = !words->visible};
+                             .is_hidden = !words->visible,
+                             .light_group = words->light_group};
     fill_shape(words, given, desc);
     status = fill_intensity(light, words, given, desc->intensity);
     if (status != PPM_STATUS_OK) return status;

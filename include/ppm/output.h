@@ -49,6 +49,7 @@ typedef struct ppm_output_options {
     uint32_t jpeg_quality; /* 1 .. 100; default 95 */
     const char *look;      /* display-referred files: as in ppm_color_check_look */
     float gamma; /* display-referred files: to the power of 1/gamma after the view; default 1 */
+    uint32_t is_picture_only; /* non-zero: the EXR has none of the session's other layers */
 } ppm_output_options;
 
 /* Whether path has an ending that can be written (.exr .png .jpg .jpeg .tif .tiff, any case) and

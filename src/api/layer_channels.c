@@ -89,10 +89,10 @@ static bool fill_layer(ppm_context *context, ppmi_layer_channels *all, uint32_t 
     return true;
 }
 
-static ppm_status list_layers(ppm_context *context, const ppm_render *render,
+static ppm_status list_layers(ppm_context *context, const ppm_render *render, bool has_layers,
                               ppmi_layer_channels *all)
 {
-    const uint32_t count = ppm_render_layer_count(render);
+    const uint32_t count = has_layers ? ppm_render_layer_count(render) : 1;
     all->layers = ppmi_alloc_zeroed(context, count, sizeof *all->layers);
     all->layer_names = ppmi_alloc_zeroed(context, count, sizeof *all->layer_names);
     all->first = ppmi_alloc_zeroed(context, count + 1, sizeof *all->first);
@@ -108,10 +108,10 @@ static ppm_status list_layers(ppm_context *context, const ppm_render *render,
 }
 
 ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
-                                    ppmi_layer_channels *all)
+                                    bool has_layers, ppmi_layer_channels *all)
 {
     *all = (ppmi_layer_channels){0};
-    ppm_status status = list_layers(context, render, all);
+    ppm_status status = list_layers(context, render, has_layers, all);
     if (status == PPM_STATUS_OK) {
         const uint32_t count = all->first[all->layer_count];
         all->channel_names = ppmi_alloc_zeroed(context, count, sizeof *all->channel_names);

@@ -18,10 +18,11 @@ typedef struct ppmi_layer_channels {
     ppmi_layered_channel *channels;
 } ppmi_layer_channels;
 
-/* keeps_half: layers that bear it are stored as half floats. Returns OK, OUT_OF_MEMORY;
+/* is_half: layers that bear it are stored as half floats; has_layers: all, else the picture alone,
+ * which is the first of them. Returns OK, OUT_OF_MEMORY;
  * *out_channels is to be freed with deinit in both cases. */
 ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
-                                    ppmi_layer_channels *out_channels);
+                                    bool has_layers, ppmi_layer_channels *out_channels);
 void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *channels);
 
 #endif

@@ -104,7 +104,7 @@ static ppm_status write_scene_linear(ppm_context *context, const ppm_render *ren
     ppmi_output_facts facts;
     ppmi_output_header_add_facts(&header, render, &facts);
     header.repeated_count = header.count;
-    ppmi_output_header_add_mattes(&header, render, &facts);
+    if (!options->is_picture_only) ppmi_output_header_add_mattes(&header, render, &facts);
     ppmi_output_header_add_origin(&header, options->copyright, options->xmp);
     return ppmi_output_layers_write(context, render, path, options, &header);
 }

@@ -208,8 +208,8 @@ ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *rend
 {
     const uint32_t *const crop = ppm_render_get_options(render)->crop;
     ppmi_layer_channels channels;
-    ppm_status status =
-        ppmi_layer_channels_init(context, render, options->depth == PPM_DEPTH_HALF, &channels);
+    ppm_status status = ppmi_layer_channels_init(context, render, options->depth == PPM_DEPTH_HALF,
+                                                 !options->is_picture_only, &channels);
     if (status == PPM_STATUS_OK) status = check_ids(context, path, options, &channels);
     if (status == PPM_STATUS_OK) {
         layer_source source = {.context = context,

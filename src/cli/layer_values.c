@@ -45,7 +45,8 @@ static int complain_of_name(const option_table *table, const option_row *row, co
     if (nearest) fprintf(stderr, "; did you mean '%s'?", nearest);
     fputs("\nLayers: all, crypto", stderr);
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++) {
-        if (kind != PPM_LAYER_GROUP_CAUSTICS) fprintf(stderr, ", %s", ppm_layer_kind_name(kind));
+        const bool is_second = kind == PPM_LAYER_GROUP_CAUSTICS || kind == PPM_LAYER_LIGHT_VARIANCE;
+        if (!is_second) fprintf(stderr, ", %s", ppm_layer_kind_name(kind));
     }
     fputc('\n', stderr);
     return option_give_hint(table);

@@ -13,6 +13,32 @@ enum { FIRST_LONG = 256 }; /* long options answer with this plus their row */
 
 /* ---- help ------------------------------------------------------------------------------------ */
 
+enum { HELP_WIDTH = 80 };
+
+/* Words up to HELP_WIDTH columns, from column on, in lines that begin at margin. */
+static void print_words(const char *text, int column, int margin, FILE *stream)
+{
+    fprintf(stream, "%*s", margin - column, "");
+    column = margin;
+    while (*text) {
+        const int length = (int)strcspn(text, " \n");
+        const bool is_first = column == margin;
+        if (!is_first && column + 1 + length > HELP_WIDTH) {
+            fprintf(stream, "\n%*s", margin, "");
+            column = margin;
+        } else if (!is_first) {
+            fputc(' ', stream);
+            column++;
+        }
+        column += fprintf(stream, "%.*s", length, text);
+        text += length;
+        const size_t gap = strspn(text, " \n");
+        if (strncmp(text, "\n\n", 2) == 0) column = HELP_WIDTH; /* whatever follows */
+        text += gap;
+    }
+    fputc('\n', stream);
+}
+
 static void print_row(const option_table *table, const option_row *row, FILE *stream)
 {
     char letter[5] = "    ";
@@ -24,12 +50,7 @@ static void print_row(const option_table *table, const option_row *row, FILE *st
         fputc('\n', stream);
         column = 0;
     }
-    for (const char *line = row->help; line;) {
-        const size_t length = strcspn(line, "\n");
-        fprintf(stream, "%*s%.*s\n", table->help_column - column, "", (int)length, line);
-        line = line[length] ? line + length + 1 : NULL;
-        column = 0;
-    }
+    print_words(row->help, column, table->help_column, stream);
 }
 
 void option_table_print_help(const option_table *table, FILE *stream)

@@ -37,7 +37,7 @@ typedef struct option_row {
     const option_choice *choices; /* CHOICE */
     bool may_lack_value;          /* --name and --name=VALUE; argument is shown as "[=VALUE]" */
     const char *argument;         /* as the help shows it */
-    const char *help;             /* lines separated by \n */
+    const char *help;             /* is broken into lines; \n\n begins one */
     const char *group;            /* a heading, where a group begins */
 } option_row;
 

@@ -109,8 +109,8 @@ static const option_row rows[] = {
 
     {"integrator", 'i', OPTION_CHOICE, FIELD(integrator), .choices = integrators,
      .argument = "NAME", .group = "Light transport",
-     .help = "sppm: stochastic progressive photon mapping (default)\n"
-             "ppm: progressive photon mapping, one eye pass or epochs\n"
+     .help = "sppm: stochastic progressive photon mapping (default)\n\n"
+             "ppm: progressive photon mapping, one eye pass or epochs\n\n"
              "path: unidirectional path tracer, to compare with"},
     {"photons", 'p', OPTION_COUNT, FIELD(photons), .least = 1, .most = UINT64_C(1) << 40,
      .argument = "N",
@@ -295,12 +295,14 @@ void cli_options_print_help(FILE *stream)
     option_table_print_help(&table, stream);
     fputs("\nExample: ten minutes for a picture of 1920x1080 pixels, two stops brighter\n"
           "  ppm-render -s 1920x1080 -t 600 --exposure 2 -o hall.exr -o hall.png hall.glb\n"
-          "Example: a second of an animation with motion blur; again, it goes on where it ended\n"
-          "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing -o walk.%04d.exr "
-          "walk.glb\n"
+          "Example: a second of an animation with motion blur; run again, it goes on\n"
+          "  ppm-render --frames 1-24 --shutter -0.25,0.25 --skip-existing \\\n"
+          "      -o walk.%04d.exr walk.glb\n"
+          "Example: glass into a photograph of a table, with layers to work on\n"
+          "  ppm-render --catcher Table --aov caustics,crypto -o glass.exr glass.glb\n"
           "\nExit status: 0 done (also when stopped by SIGINT or SIGTERM), 1 wrong usage,\n"
-          "2 input not usable, 3 output not writable, 4 out of resources, 130 ended by a signal\n"
-          "before its pictures were written.\n",
+          "2 input not usable, 3 output not writable, 4 out of resources,\n"
+          "130 ended by a signal before its pictures were written.\n",
           stream);
 }
 

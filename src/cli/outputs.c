@@ -217,11 +217,8 @@ int outputs_finish(const cli_outputs *outputs, cli_console *console, const ppm_r
         const char *const path = outputs->paths[i];
         const ppm_status status = ppm_render_write(render, outputs->color, path, &outputs->options);
         if (result == EXIT_DONE) result = exit_status_of(status, EXIT_OUTPUT);
-        if (rescue_is_exr(path)) {
-            has_exr = has_exr || status == PPM_STATUS_OK;
-        } else if (status != PPM_STATUS_OK && !lost) {
-            lost = path;
-        }
+        has_exr = has_exr || (rescue_is_exr(path) && status == PPM_STATUS_OK);
+        if (status != PPM_STATUS_OK && !lost) lost = path;
     }
     if (lost && !has_exr) {
         rescue_picture(console, render, outputs->color, lost, &outputs->options);

@@ -50,8 +50,8 @@ int outputs_check(const cli_outputs *outputs, ppm_context *context);
 /* Writes each; goes on to the next when one fails. Returns an exit status. */
 int outputs_write(const cli_outputs *outputs, const ppm_render *render);
 
-/* The same at the end. Where a file for display fails and no .exr of the picture is written, it is
- * saved beside as one (rescue.h). */
+/* The same at the end. Where a file fails and no .exr of the picture is written, it is saved beside
+ * as one (rescue.h). */
 int outputs_finish(const cli_outputs *outputs, cli_console *console, const ppm_render *render);
 
 /* Writes each if it is time to: at growing intervals, and never for more than a twentieth of the

@@ -40,22 +40,34 @@ static void say_what_begins(cli_console *console, const ppm_render *render)
                     whole, (unsigned long long)options->seed);
 }
 
-/* Of the time that is given, the plate takes a third: its scene is the simpler one. */
+/* Of the time that is given, the plate takes so much: its scene is the simpler one, so that the
+ * other render can make as many passes in the rest. */
+static const double PLATE_SHARE = 0.3;
+
 static double seconds_of(const picture_task *task)
 {
     const double seconds = task->options->seconds;
-    if (task->is_plate) return seconds / 3.0;
-    return task->plate ? seconds * 2.0 / 3.0 : seconds;
+    if (task->is_plate) return seconds * PLATE_SHARE;
+    return task->plate ? seconds * (1.0 - PLATE_SHARE) : seconds;
 }
 
 /* Epochs are whole passes. */
-static uint64_t pass_limit(const cli_options *cli, const ppm_render *render)
+static uint64_t passes_asked_for(const cli_options *cli, const ppm_render *render)
 {
     if (cli->epochs == 0) return cli->passes;
     const ppm_render_options *const options = ppm_render_get_options(render);
     const uint64_t per_epoch =
         (options->photons_per_epoch + options->photons_per_pass - 1) / options->photons_per_pass;
     return cli->epochs * per_epoch;
+}
+
+/* Passes of the same numbers have the same noise, which cancels where nothing was changed: more of
+ * them than the plate has would be noisier. */
+static uint64_t pass_limit(const picture_task *task, const ppm_render *render)
+{
+    const uint64_t asked_for = passes_asked_for(task->options, render);
+    if (!task->plate || task->plate_passes == 0) return asked_for;
+    return asked_for > 0 && asked_for < task->plate_passes ? asked_for : task->plate_passes;
 }
 
 /* Of a sequence, or of catchers alone. */
@@ -77,7 +89,7 @@ static void show_and_refresh(const picture_task *task, ppm_render *render, cli_p
 static void begin_passes(const picture_task *task, ppm_render *render, cli_progress *progress,
                          char *label, size_t label_size)
 {
-    progress_init(progress, pass_limit(task->options, render), seconds_of(task));
+    progress_init(progress, pass_limit(task, render), seconds_of(task));
     if (task->label) {
         snprintf(label, label_size, "%s  ", task->label);
         progress_set_sequence(progress, label, task->pictures_after, task->seconds_per_picture);
@@ -154,25 +166,28 @@ int picture_render(const picture_task *task, ppm_render *render, picture_result 
     *out_result = result;
     if (result.passes == 0 && !result.is_stopped) return status;
     say_how_it_ended(task, render, &result);
-    if (task->is_first && result.passes > 0) {
+    /* what lies over a photograph is as bright as that */
+    if (task->is_first && result.passes > 0 && !task->plate) {
         brightness_advise(task->console, render, task->options->exposure_ev);
     }
     return status;
 }
 
-int picture_render_plate(const picture_task *task, float **out_plate, size_t *out_count)
+int picture_render_plate(picture_task *task, float **out_plate)
 {
     picture_task plate_task = *task;
     plate_task.is_plate = true;
     plate_task.label = "catchers alone";
+    plate_task.is_first = false; /* what begins is told of the picture */
     ppm_render *render = NULL;
-    uint64_t passes = 0;
     bool is_whole = false;
     *out_plate = NULL;
     if (ppm_scene_show_catchers_alone(task->scene, 1) != PPM_STATUS_OK) return EXIT_RESOURCES;
     int result = picture_prepare(&plate_task, &render);
-    if (result == EXIT_DONE) result = run_passes(&plate_task, render, &passes, &is_whole);
-    if (result == EXIT_DONE && is_whole) result = catchers_read(render, out_plate, out_count);
+    if (result == EXIT_DONE)
+        result = run_passes(&plate_task, render, &task->plate_passes, &is_whole);
+    if (result == EXIT_DONE && is_whole)
+        result = catchers_read(render, out_plate, &task->plate_count);
     signals_leave_picture();
     ppm_render_destroy(render);
     ppm_scene_show_catchers_alone(task->scene, 0);

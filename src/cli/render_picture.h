@@ -23,6 +23,7 @@ typedef struct picture_task {
     double seconds_per_picture; /* of those before; 0: none */
     const float *plate;         /* of its catchers alone; NULL: there are none */
     size_t plate_count;         /* values */
+    uint64_t plate_passes;      /* that it took */
     bool is_plate;              /* this is that */
 } picture_task;
 
@@ -36,9 +37,10 @@ typedef struct picture_result {
 /* Makes the session of a picture. Returns an exit status; what is wrong has been said. */
 int picture_prepare(const picture_task *task, ppm_render **out_render);
 
-/* Renders the scene's catchers alone: *out_plate is to be freed, and NULL where a signal stopped
- * it. Returns an exit status; what is wrong has been said. */
-int picture_render_plate(const picture_task *task, float **out_plate, size_t *out_count);
+/* Renders the scene's catchers alone for a picture: *out_plate is to be freed, and NULL where a
+ * signal stopped it; task has its numbers afterwards. Returns an exit status; what is wrong has
+ * been said. */
+int picture_render_plate(picture_task *task, float **out_plate);
 
 /* Renders and writes. The session stays with the caller, who leaves the step of the signals before
  * destroying it. Returns an exit status; what is wrong has been said. */

@@ -77,7 +77,7 @@ static bool render_plate(picture_task *task, float **out_plate, int *result)
 {
     *out_plate = NULL;
     if (ppm_scene_catcher_count(task->scene) == 0) return true;
-    *result = picture_render_plate(task, out_plate, &task->plate_count);
+    *result = picture_render_plate(task, out_plate);
     task->plate = *out_plate;
     return *result == EXIT_DONE && *out_plate;
 }

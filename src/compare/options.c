@@ -113,7 +113,7 @@ static const option_table table = {.program = "ppm-compare",
 void compare_options_print_help(FILE *stream)
 {
     fputs("Usage: ppm-compare [options] TEST REFERENCE\n"
-          "Says how far the picture TEST is from REFERENCE: MSE, relative MSE, PSNR and FLIP.\n"
+          "Says how far the picture TEST is from REFERENCE: MSE, relative MSE, PSNR, FLIP.\n"
           "Pictures are .exr .hdr .png .jpg .tif and others that ppm-render reads.\n",
           stream);
     option_table_print_help(&table, stream);
@@ -121,8 +121,8 @@ void compare_options_print_help(FILE *stream)
           "  ppm-compare --trim 0.001 noisy.exr converged.exr\n"
           "  ppm-compare --heat errors.png noisy.exr converged.exr\n"
           "  ppm-compare --fail-above flip=0.05 --fail-above broken=0 new.exr old.exr\n"
-          "\nExit status: 0 compared (also when the pictures differ), 1 wrong usage, 2 input not\n"
-          "usable, 3 heat map not writable, 4 out of resources, 5 above a limit.\n",
+          "\nExit status: 0 compared (also when the pictures differ), 1 wrong usage, 2 input\n"
+          "not usable, 3 heat map not writable, 4 out of resources, 5 above a limit.\n",
           stream);
 }
 

@@ -52,8 +52,8 @@ static const option_table table = {.program = "ppm-merge",
 void merge_options_print_help(FILE *stream)
 {
     fputs("Usage: ppm-merge [options] -o ALL.exr A.exr B.exr ...\n"
-          "Makes one picture of several that ppm-render made of the same scene with different\n"
-          "seeds: all layers, weighted by photons or passes.\n",
+          "Makes one picture of several that ppm-render made of the same scene with\n"
+          "different seeds: all layers, weighted by photons or passes.\n",
           stream);
     option_table_print_help(&table, stream);
     fputs("\nExample: two machines, then one picture\n"

@@ -123,6 +123,50 @@ static void a_lamp_may_say_its_group_itself(void **state)
     ppmi_gltf_asset_close(asset);
 }
 
+/* From the file to what is rendered: lamps and meshes, at rest and under a node that has the group,
+ * and the catcher beside them. */
+static void groups_and_catchers_come_into_the_scene(void **state)
+{
+    gltf_fixture *f = *state;
+    assert_gltf_status(
+        f,
+        gltf_import(f, "{" GLTF_HEAD "'extensionsUsed':['KHR_lights_punctual'],"
+                       "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point',"
+                       "'extras':{'ppm_light_group':'bulbs'}},{'type':'point'}]}},"
+                       "'nodes':[{'children':[1,2,3],'extras':{'ppm_light_group':'key'}},"
+                       "{'extensions':{'KHR_lights_punctual':{'light':0}}},"
+                       "{'extensions':{'KHR_lights_punctual':{'light':1}}},"
+                       "{'mesh':0,'children':[4]},"
+                       "{'mesh':0,'extras':{'ppm_light_group':'rim','ppm_catcher':true}}]"
+                       "," GLTF_TRIANGLE "}"),
+        PPM_STATUS_OK);
+    const ppm_scene *const scene = f->scene;
+    assert_int_equal(scene->punctual_count, 2);
+    assert_string_equal(scene->punctuals[0].light_group, "bulbs");
+    assert_string_equal(scene->punctuals[1].light_group, "key");
+    assert_int_equal(scene->instance_count, 2);
+    assert_string_equal(scene->instances[0].light_group, "key");
+    assert_string_equal(scene->instances[1].light_group, "rim");
+    assert_false(scene->instances[0].is_catcher);
+    assert_true(scene->instances[1].is_catcher);
+    assert_int_equal(ppm_scene_catcher_count(scene), 1);
+}
+
+static void what_is_no_catcher_is_none(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char *const extras[] = {"true", "{'ppm_catcher':false}", "{'ppm_catcher':null}",
+                                         "{'ppm_catcher':'yes'}", "{'ppm_catcher':[true]}"};
+    for (size_t i = 0; i < sizeof extras / sizeof extras[0]; ++i) {
+        char json[1024];
+        snprintf(json, sizeof json,
+                 "{" GLTF_HEAD "'nodes':[{'mesh':0,'extras':%s}]," GLTF_TRIANGLE "}", extras[i]);
+        assert_gltf_status(f, gltf_import(f, json), PPM_STATUS_OK);
+        assert_int_equal(ppm_scene_catcher_count(f->scene), 0);
+        gltf_reset(f);
+    }
+}
+
 static void what_is_no_name_is_no_group(void **state)
 {
     gltf_fixture *f = *state;
@@ -152,6 +196,8 @@ int main(void)
         TEST(an_asset_is_that_of_moving_nodes_too),
         TEST(a_light_group_is_the_nearest_ones),
         TEST(a_lamp_may_say_its_group_itself),
+        TEST(groups_and_catchers_come_into_the_scene),
+        TEST(what_is_no_catcher_is_none),
         TEST(what_is_no_name_is_no_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,6 +74,8 @@ static void every_key_is_in_the_reference(void **state)
                                         "`radius`",
                                         "`profile`",
                                         "`visible`",
+                                        "`light_group`",
+                                        "`catcher`",
                                         "`image`",
                                         "`rotation`",
                                         "`intensity`",

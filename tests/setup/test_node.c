@@ -74,6 +74,15 @@ static void a_hidden_node_is_not_there(void **state)
     compare(f, other);
 }
 
+static void a_catcher_is_one_or_not(void **state)
+{
+    setup_fixture *f = *state;
+    assert_int_equal(setup_apply(f, RULE("\"match\": \"C*\", \"catcher\": true")), PPM_STATUS_OK);
+    assert_int_equal(ppm_scene_catcher_count(f->scene), 1);
+    assert_int_equal(setup_apply(f, RULE("\"match\": \"C*\", \"catcher\": false")), PPM_STATUS_OK);
+    assert_int_equal(ppm_scene_catcher_count(f->scene), 0);
+}
+
 static void a_material_is_that_of_the_mesh(void **state)
 {
     setup_fixture *f = *state;
@@ -123,6 +132,7 @@ int main(void)
         TEST(unknown_primitives_and_materials_are_refused),
         TEST(materials_are_not_exchanged_during_a_render),
         TEST(a_hidden_node_is_not_there),
+        TEST(a_catcher_is_one_or_not),
         TEST(a_material_is_that_of_the_mesh),
         TEST(a_priority_goes_to_a_copy_of_the_material),
         TEST(visibility_is_put_back_after_a_pose),
