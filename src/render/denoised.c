@@ -44,9 +44,36 @@ static void read_feature(const ppmi_denoised_source *source, int32_t kind, uint3
     ppmi_features_read(source->job, source->features, &layer, values);
 }
 
+/* Whether the layer's light is what photons bring, which neighbouring pixels share. Lamps that the
+ * eye's vertices look at give each pixel noise of its own. */
+static bool is_of_photons(const ppmi_job *job, int32_t kind)
+{
+    const bool is_direct = kind == PPM_LAYER_DIFFUSE_DIRECT || kind == PPM_LAYER_GLOSSY_DIRECT;
+    if (job->options->integrator == PPM_INTEGRATOR_PATH) return false;
+    return !is_direct || job->options->direct == PPM_DIRECT_PHOTONS;
+}
+
+/* The mean radius of gathering in pixels, 0 where nothing gathers. depth: the layer; radius: room
+ * for one. A lens, slanted surfaces and what is seen in mirrors are left aside. */
+static float radius_in_pixels(const ppmi_denoised_source *source, const float *depth, float *radius)
+{
+    const ppmi_job *job = source->job;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    const float side = 2.0f * vec3_length(job->view.up) / (float)job->options->height;
+    double sum = 0.0, count = 0.0;
+    source->integrator->read_layer(job, source->state, PPM_LAYER_RADIUS, 0, source->passes, radius);
+    for (size_t i = 0; i < pixels; i++) {
+        const float here = job->view.is_perspective ? side * depth[i] : side;
+        if (!(radius[i] > 0.0f && here > 0.0f)) continue;
+        sum += (double)(radius[i] / here);
+        count += 1.0;
+    }
+    return count > 0.0 ? (float)(sum / count) : 0.0f;
+}
+
 static ppm_status filter_layer(const ppmi_denoised_source *source, int32_t kind,
-                               const ppmi_denoise_guide *guide, const denoised_memory *memory,
-                               float *rgba)
+                               const ppmi_denoise_guide *guide, float radius_px,
+                               const denoised_memory *memory, float *rgba)
 {
     const ppmi_job *job = source->job;
     const size_t pixels = ppmi_film_pixel_count(&job->film);
@@ -56,8 +83,9 @@ static ppm_status filter_layer(const ppmi_denoised_source *source, int32_t kind,
     integrator->read_layer(job, source->state, PPM_LAYER_LIGHT_VARIANCE,
                            (uint32_t)(kind - PPM_LAYER_DIFFUSE_DIRECT), source->passes,
                            memory->variance);
+    const float correlation_px = is_of_photons(job, kind) ? radius_px : 0.0f;
     const ppm_status status =
-        ppmi_denoise(job->context, guide, memory->variance, 0.0f, memory->filtered);
+        ppmi_denoise(job->context, guide, memory->variance, correlation_px, memory->filtered);
     if (status != PPM_STATUS_OK) return status;
     for (size_t i = 0; i < 3 * pixels; i++)
         rgba[4 * (i / 3) + i % 3] += memory->filtered[i] - memory->light[i];
@@ -79,10 +107,11 @@ ppm_status ppmi_denoised_apply(const ppmi_denoised_source *source, float *rgba)
                                       .normal = memory.normal,
                                       .depth = memory.depth,
                                       .threads = job->options->threads};
+    const float radius_px = radius_in_pixels(source, memory.depth, memory.light);
     for (int32_t kind = PPM_LAYER_DIFFUSE_DIRECT;
          kind <= PPM_LAYER_VOLUME && status == PPM_STATUS_OK; kind++) {
         if (kind == PPM_LAYER_EMISSION || kind == PPM_LAYER_ENVIRONMENT) continue;
-        status = filter_layer(source, kind, &guide, &memory, rgba);
+        status = filter_layer(source, kind, &guide, radius_px, &memory, rgba);
     }
     give_memory_back(job, &memory);
     return status;
