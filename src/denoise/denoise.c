@@ -2,13 +2,15 @@
 #include "denoise/denoise.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "denoise/choice.h"
 #include "math/vec.h"
 
-/* An estimate of variance from few passes is noise itself: where no path came by chance it is 0,
- * and such pixels would take nothing from their neighbours, though these take from them. */
-enum { VARIANCE_RADIUS = 2 };
+/* An estimate of variance from few passes is noise itself: it is averaged over a neighbourhood. A
+ * few pixels with far more of it than the rest, as a glint has, do not speak for the others: with
+ * their variance all around them any blur would pass for harmless. So the largest are left out. */
+enum { VARIANCE_RADIUS = 2, VARIANCES = 25, LEFT_OUT = 5 };
 
 /* Features differ if they do so by more than this, squared, or than they do to the next pixel
  * (tau and k of Rousselle et al. 2013, section 4). */
@@ -76,6 +78,45 @@ static void fill_guide(const ppmi_denoise_guide *guide, float *planes)
     }
 }
 
+/* Collects the neighbourhood's values, the largest LEFT_OUT of them in order at the end. */
+static size_t collect(const float *values, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                      float collected[VARIANCES])
+{
+    size_t count = 0;
+    for (int64_t ny = (int64_t)y - VARIANCE_RADIUS; ny <= (int64_t)y + VARIANCE_RADIUS; ny++) {
+        for (int64_t nx = (int64_t)x - VARIANCE_RADIUS; nx <= (int64_t)x + VARIANCE_RADIUS; nx++) {
+            if (nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
+            collected[count++] = values[(size_t)ny * width + (size_t)nx];
+        }
+    }
+    for (size_t last = count; last > 1 && count - last < LEFT_OUT; last--) {
+        for (size_t i = 0; i + 1 < last; i++) {
+            const float low = ppmi_min(collected[i], collected[i + 1]);
+            collected[i + 1] = ppmi_max(collected[i], collected[i + 1]);
+            collected[i] = low;
+        }
+    }
+    return count;
+}
+
+/* The mean of the neighbourhood without its largest fifth, and no less than the pixel's own. */
+static void smooth_variance(uint32_t width, uint32_t height, float *variance, float *scratch)
+{
+    memcpy(scratch, variance, (size_t)width * height * sizeof *scratch);
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            float values[VARIANCES];
+            const size_t i = (size_t)y * width + x;
+            const size_t count = collect(scratch, width, height, x, y, values);
+            const size_t kept = count - count * LEFT_OUT / VARIANCES;
+            float sum = 0.0f;
+            for (size_t k = 0; k < kept; k++)
+                sum += values[k];
+            variance[i] = ppmi_max(sum / (float)kept, scratch[i]);
+        }
+    }
+}
+
 static void fill_light(const ppmi_denoise_guide *guide, const float *light, const float *variance,
                        const filter_memory *memory)
 {
@@ -84,8 +125,7 @@ static void fill_light(const ppmi_denoise_guide *guide, const float *light, cons
     split(light, pixels, memory->planes + PPMI_NL_LIGHT * pixels);
     split(variance, pixels, variances);
     for (size_t c = 0; c < 3; c++)
-        ppmi_denoise_blur(guide->width, guide->height, VARIANCE_RADIUS, variances + c * pixels,
-                          memory->scratch);
+        smooth_variance(guide->width, guide->height, variances + c * pixels, memory->scratch);
 }
 
 /* ---- the filter ------------------------------------------------------------------------------ */
