@@ -240,13 +240,25 @@ static void finish_pixel(const tile_work *work, int candidate, int x, int y, siz
     output->risk[to] = all > 0.0f ? ppmi_min(risk / all, 100.0f) : 1.0f;
 }
 
+/* Whether there is no noise in the tile: then there is nothing to do, as in most of most layers. */
+static bool is_quiet(const tile_work *work)
+{
+    float sum = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < SIDE * SIDE; i++)
+            sum += work->planes[PPMI_NL_VARIANCE + c][i];
+    }
+    return sum == 0.0f;
+}
+
 static void do_tile(const ppmi_nl_input *input, uint32_t x0, uint32_t y0, tile_work *work,
                     const ppmi_nl_output *outputs)
 {
     load_tile(input, x0, y0, work);
     memset(work->sums, 0, sizeof work->sums);
-    for (int dy = -WINDOW; dy <= WINDOW; dy++) {
-        for (int dx = -WINDOW; dx <= WINDOW; dx++)
+    const int window = is_quiet(work) ? 0 : WINDOW;
+    for (int dy = -window; dy <= window; dy++) {
+        for (int dx = -window; dx <= window; dx++)
             add_offset(input, work, dx, dy);
     }
     for (int candidate = 0; candidate < PPMI_DENOISE_CANDIDATES; candidate++) {

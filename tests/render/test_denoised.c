@@ -193,6 +193,68 @@ static void the_error_does_not_grow_in_any_scene(void **state)
     family_check(&family);
 }
 
+/* ---- sharpness ------------------------------------------------------------------------------- */
+
+/* What the differences between neighbours are by those of the truth, where caustics are: 1 of the
+ * truth itself, on average 1 of noise upon it, less where it is blurred. */
+static double sharpness(const float *rgba, const float *truth, const float *caustics)
+{
+    float brightest = 0.0f;
+    for (size_t i = 0; i < PIXELS; i++)
+        brightest = fmaxf(brightest, caustics[3 * i + 1]);
+    double product = 0.0, square = 0.0;
+    for (size_t i = 0; i < PIXELS - WIDTH; i++) {
+        if (i % WIDTH == WIDTH - 1 || caustics[3 * i + 1] < 0.1f * brightest) continue;
+        const size_t neighbours[2] = {i + 1, i + WIDTH};
+        for (size_t k = 0; k < 2; k++) {
+            const size_t to = 4 * neighbours[k] + 1, at = 4 * i + 1;
+            const double step = (double)truth[to] - (double)truth[at];
+            product += step * ((double)rgba[to] - (double)rgba[at]);
+            square += step * step;
+        }
+    }
+    return product / square;
+}
+
+static void check_sharpness(const char *scene, test_family *family)
+{
+    ppm_render_options options = options_of(PPM_INTEGRATOR_SPPM);
+    options.seed = 1000;
+    options.layers = PPM_LAYER_BIT(PPM_LAYER_CAUSTICS);
+    ppm_render *reference = layers_render(test.scene, &options, 128);
+    float *truth = layers_read(reference, PPM_LAYER_COMBINED, 0);
+    float *caustics = layers_read(reference, PPM_LAYER_CAUSTICS, 0);
+    ppm_render_destroy(reference);
+    test_mean loss = {0};
+    const uint32_t seeds = TEST_EFFORT(6) + 1;
+    for (options.seed = 1; options.seed <= seeds; options.seed++) {
+        ppm_render *render = layers_render(test.scene, &options, 8);
+        float *noisy = layers_read(render, PPM_LAYER_COMBINED, 0);
+        float *denoised = layers_read(render, PPM_LAYER_DENOISED, 0);
+        mean_add(&loss, sharpness(noisy, truth, caustics) - sharpness(denoised, truth, caustics));
+        free(noisy);
+        free(denoised);
+        ppm_render_destroy(render);
+    }
+    free(truth);
+    free(caustics);
+    print_message("%s: caustics lose %.4f of their sharpness\n", scene, loss.mean);
+    family_add_at_most(family, &loss, 0.05, "%s", scene);
+}
+
+static void caustics_stay_as_sharp_as_they_are(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"caustic_box", "glass_table", "pool"};
+    test_family family = {0};
+    for (size_t i = 0; i < 3; i++) {
+        open_sample(names[i]);
+        check_sharpness(names[i], &family);
+        scene_close(&test);
+    }
+    family_check(&family);
+}
+
 #define WITH_SCENE(test) cmocka_unit_test_setup_teardown(test, open_scene, close_scene)
 
 int main(void)
@@ -204,6 +266,7 @@ int main(void)
         WITH_SCENE(the_picture_itself_is_the_same_as_without),
         WITH_SCENE(the_bit_of_the_layer_is_enough),
         cmocka_unit_test(the_error_does_not_grow_in_any_scene),
+        cmocka_unit_test(caustics_stay_as_sharp_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
