@@ -69,7 +69,11 @@ enum {
  * VARIANCE is an estimate, from the differences between passes: of the square of the standard
  * deviation of each channel, 0 after the first pass. It does not know that passes are spread evenly
  * (path: it is rather too large), nor that radii are still too large (SPPM), nor of what the eye
- * paths of an epoch miss (PPM). PHOTON_DENSITY is of surfaces; it and RADIUS are 0 of PATH. */
+ * paths of an epoch miss (PPM). PHOTON_DENSITY is of surfaces; it and RADIUS are 0 of PATH.
+ *
+ * DENOISED is RGBA like COMBINED: each light layer but EMISSION and ENVIRONMENT is filtered by its
+ * variance, with albedo, normal and depth as guides, which the session keeps for it. It needs two
+ * passes: after one it is the picture as it is, with a warning in the log. */
 enum {
     PPM_LAYER_COMBINED = 0, /* the picture; always there */
     PPM_LAYER_DIFFUSE_DIRECT = 1,
@@ -101,7 +105,8 @@ enum {
     PPM_LAYER_CRYPTO_ASSET = 25,
     PPM_LAYER_LIGHT_VARIANCE = 26, /* as VARIANCE, of DIFFUSE_DIRECT .. VOLUME: a layer for each */
     PPM_LAYER_CATCHER = 27,        /* catchers with all light on them; alpha is their coverage */
-    PPM_LAYER_KINDS = 28
+    PPM_LAYER_DENOISED = 28,       /* the picture, of which the noise is filtered when it is read */
+    PPM_LAYER_KINDS = 29
 };
 #define PPM_LAYER_BIT(kind) (UINT64_C(1) << (kind))
 
@@ -157,6 +162,9 @@ typedef struct ppm_render_options {
     uint32_t follows_specular;  /* non-zero: albedo and normal are of what is seen in mirrors and
                                    through glass */
     uint32_t cryptomatte_ranks; /* ids a pixel can hold, even, at most 32; default 6 */
+    uint32_t denoise;           /* non-zero: layers gets PPM_LAYER_DENOISED, and ppm_render_write
+                                   shows it in files for display. PPM_LAYER_COMBINED and
+                                   ppm_render_read_image are not changed */
 } ppm_render_options;
 
 /* The options in effect: defaults filled in for this scene. Returns INVALID_ARGUMENT for values

@@ -200,6 +200,21 @@ static ppm_status write_display(ppm_context *context, const ppm_color *color,
     return ppmi_imageio_write_file(context, path, file);
 }
 
+/* What files for display show of a session. */
+static ppm_status read_shown(const ppm_render *render, float *rgba, size_t value_count)
+{
+    const bool is_denoised = ppm_render_get_options(render)->denoise != 0;
+    for (uint32_t i = 0; is_denoised && i < ppm_render_layer_count(render); i++) {
+        ppm_layer_info layer = {.size = sizeof layer};
+        const ppm_status status = ppm_render_get_layer(render, i, &layer);
+        if (status != PPM_STATUS_OK) return status;
+        if (layer.kind == PPM_LAYER_DENOISED) {
+            return ppm_render_read_layer(render, i, rgba, value_count);
+        }
+    }
+    return ppm_render_read_image(render, rgba, value_count);
+}
+
 static ppm_status write_for_display(ppm_context *context, const ppm_render *render,
                                     const ppm_color *color, const char *path,
                                     const ppmi_output_format *format,
@@ -218,7 +233,7 @@ static ppm_status write_for_display(ppm_context *context, const ppm_render *rend
                             .channels = 4,
                             .pixels = rgba,
                             .store = format->usual_store};
-    ppm_status status = ppm_render_read_image(render, rgba, value_count);
+    ppm_status status = read_shown(render, rgba, value_count);
     if (status == PPM_STATUS_OK) {
         status = write_display(context, color, &ppmi_render_scene(render)->working, path, options,
                                crop, &file, rgba);

@@ -25,7 +25,7 @@ static uint64_t bits_between(int32_t first, int32_t last)
  * caustics of all light. */
 static uint64_t bits_of(const char *name)
 {
-    if (strcmp(name, "all") == 0) return bits_between(0, PPM_LAYER_KINDS - 1);
+    if (strcmp(name, "all") == 0) return bits_between(0, PPM_LAYER_DENOISED - 1);
     if (strcmp(name, "crypto") == 0) {
         return bits_between(PPM_LAYER_CRYPTO_OBJECT, PPM_LAYER_CRYPTO_ASSET);
     }

@@ -204,7 +204,7 @@ static const option_row rows[] = {
 
     {"aov", 0, VALUE_LAYERS, FIELD(layers), .argument = "LIST|all", .group = "Layers of .exr",
      .help = "layers beside the picture, as caustics,albedo,crypto; may be\n"
-             "repeated. all: all that there are"},
+             "repeated. all: all that there are but denoised"},
     {"light-groups", 0, VALUE_GROUPS, FIELD(light_groups), .choices = light_groups,
      .may_lack_value = true, .argument = "[=HOW]",
      .help = "a layer for each group of lights: given by the scene (the\n"
@@ -220,6 +220,9 @@ static const option_row rows[] = {
      .help = "of the layer normal: world, camera (default: world)"},
     {"follow-specular", 0, OPTION_SET, FIELD(follows_specular), .set = 1,
      .help = "albedo and normal of what is seen in mirrors and through glass"},
+    {"denoise", 0, OPTION_SET, FIELD(denoises), .set = 1,
+     .help = "filters the noise: as the layer denoised of .exr, beside the\n"
+             "noisy ones, and as what all other files show"},
     {"cryptomatte-levels", 0, VALUE_RANKS, FIELD(cryptomatte_ranks), .least = 2, .most = 32,
      .argument = "N", .help = "ids that a pixel can hold (default: 6)"},
     {"depth", 0, OPTION_CHOICE, FIELD(depth), .choices = depths, .argument = "BITS",
@@ -357,6 +360,8 @@ static const char *fault_of_layers(const cli_options *options)
     const bool is_packed =
         options->depth || options->packing.kind || options->is_multipart || options->tile_side > 0;
     const bool has_crypto = asks_for(options, PPM_LAYER_CRYPTO_OBJECT, PPM_LAYER_CRYPTO_ASSET);
+    const bool denoises =
+        options->denoises || asks_for(options, PPM_LAYER_DENOISED, PPM_LAYER_DENOISED);
     const struct {
         bool is_idle;
         const char *message;
@@ -367,8 +372,11 @@ static const char *fault_of_layers(const cli_options *options)
          "--depth and --exr-... are about an .exr, which is not among the outputs"},
         {options->normals_of_camera && !asks_for(options, PPM_LAYER_NORMAL, PPM_LAYER_NORMAL),
          "--normals is about the layer normal, which --aov does not name"},
-        {options->follows_specular && !asks_for(options, PPM_LAYER_ALBEDO, PPM_LAYER_NORMAL),
+        {options->follows_specular && !denoises &&
+             !asks_for(options, PPM_LAYER_ALBEDO, PPM_LAYER_NORMAL),
          "--follow-specular is about the layers albedo and normal, which --aov does not name"},
+        {denoises && options->passes == 1,
+         "--denoise tells noise by the differences between passes: it needs 2 at least, better 16"},
         {options->cryptomatte_ranks > 0 && !has_crypto,
          "--cryptomatte-levels is about Cryptomattes, which --aov does not name (crypto)"},
         {options->packing.kind == PPM_COMPRESSION_PXR24 && has_crypto,

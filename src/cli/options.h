@@ -136,6 +136,7 @@ typedef struct cli_options {
     int32_t is_transparent;
     int32_t normals_of_camera;
     int32_t follows_specular;
+    int32_t denoises;
     int32_t depth; /* PPM_DEPTH_ */
     packing_choice packing;
     int32_t is_multipart;

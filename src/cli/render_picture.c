@@ -19,7 +19,10 @@ int picture_prepare(const picture_task *task, ppm_render **out_render)
     if (result != EXIT_DONE) return result;
     const ppm_status usable = ppm_render_options_resolve(task->scene, &wanted, &resolved);
     if (usable != PPM_STATUS_OK) return exit_status_of(usable, EXIT_USAGE);
-    if (task->is_plate) wanted.layers = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
+    if (task->is_plate) {
+        wanted.layers = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
+        wanted.denoise = 0;
+    }
     ppm_status status = ppm_render_create(task->scene, &wanted, out_render);
     if (status == PPM_STATUS_OK && task->plate) {
         status = ppm_render_set_plate(*out_render, task->plate, task->plate_count);

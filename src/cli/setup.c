@@ -216,6 +216,7 @@ int setup_render_options(cli_console *console, ppm_scene *scene, const cli_optio
         .normals_of_camera = options->normals_of_camera != 0,
         .follows_specular = options->follows_specular != 0,
         .cryptomatte_ranks = (uint32_t)options->cryptomatte_ranks,
+        .denoise = options->denoises != 0,
     };
     return set_camera(console, scene, options, picture, out_render_options);
 }

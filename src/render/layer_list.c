@@ -40,6 +40,7 @@ static const layer_row rows[PPM_LAYER_KINDS] = {
     [PPM_LAYER_CRYPTO_ASSET] = {"CryptoAsset", 4, {"R", "G", "B", "A"}, true},
     [PPM_LAYER_CATCHER] = {"catcher", 4, {"R", "G", "B", "A"}, false},
     [PPM_LAYER_LIGHT_VARIANCE] = {"variance", 3, {"R", "G", "B"}, true},
+    [PPM_LAYER_DENOISED] = {"denoised", 4, {"R", "G", "B", "A"}, false},
 };
 
 const char *ppm_layer_kind_name(int32_t kind)
@@ -126,8 +127,10 @@ void ppmi_layer_list_deinit(ppm_context *context, ppmi_layer_list *list)
 
 bool ppmi_layers_have(const ppm_render_options *options, int32_t first, int32_t last)
 {
+    uint64_t kept = options->layers;
+    if (kept & PPM_LAYER_BIT(PPM_LAYER_DENOISED)) kept |= PPMI_LAYERS_TO_DENOISE;
     for (int32_t kind = first; kind <= last; kind++) {
-        if (options->layers & PPM_LAYER_BIT(kind)) return true;
+        if (kept & PPM_LAYER_BIT(kind)) return true;
     }
     return false;
 }

@@ -23,7 +23,13 @@ typedef struct ppmi_layer_list {
 ppm_status ppmi_layer_list_init(const ppmi_job *job, ppmi_layer_list *list);
 void ppmi_layer_list_deinit(ppm_context *context, ppmi_layer_list *list);
 
-/* Whether the options ask for any layer of kinds first..last. */
+/* What the denoised picture is made of: light layers come with their variances. */
+#define PPMI_LAYERS_TO_DENOISE                                                                     \
+    (PPM_LAYER_BIT(PPM_LAYER_LIGHT_VARIANCE) | PPM_LAYER_BIT(PPM_LAYER_ALBEDO) |                   \
+     PPM_LAYER_BIT(PPM_LAYER_NORMAL) | PPM_LAYER_BIT(PPM_LAYER_DEPTH) |                            \
+     PPM_LAYER_BIT(PPM_LAYER_RADIUS))
+
+/* Whether any layer of kinds first..last is kept: the options ask for it, or for what needs it. */
 bool ppmi_layers_have(const ppm_render_options *options, int32_t first, int32_t last);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "photon/eye.h"
 #include "render/catcher.h"
+#include "render/denoised.h"
 #include "render/features.h"
 #include "render/integrator.h"
 #include "render/layer_list.h"
@@ -223,6 +224,7 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
     if (resolved.aim == PPM_AIM_DEFAULT) resolved.aim = PPM_AIM_LEARNT;
     if (ppm_scene_catcher_count(scene) > 0) resolved.is_transparent = 1;
     if (resolved.cryptomatte_ranks == 0) resolved.cryptomatte_ranks = 6;
+    if (resolved.denoise) resolved.layers |= PPM_LAYER_BIT(PPM_LAYER_DENOISED);
     if (resolved.light_groups == PPM_LIGHT_GROUPS_DEFAULT) {
         resolved.light_groups = PPM_LIGHT_GROUPS_GIVEN;
     }
@@ -633,6 +635,23 @@ ppm_status ppm_render_get_layer(const ppm_render *render, uint32_t index, ppm_la
     return PPM_STATUS_OK;
 }
 
+static ppm_status read_denoised(const ppm_render *render, float *rgba, size_t value_count)
+{
+    const ppm_status status = ppm_render_read_image(render, rgba, value_count);
+    if (status != PPM_STATUS_OK) return status;
+    if (render->stats.passes < 2) {
+        ppmi_log(render->context, PPM_LOG_WARNING,
+                 "one pass does not tell light from noise: nothing is denoised");
+        return PPM_STATUS_OK;
+    }
+    const ppmi_denoised_source source = {.job = &render->job,
+                                         .integrator = render->integrator,
+                                         .state = render->state,
+                                         .features = render->features,
+                                         .passes = render->stats.passes};
+    return ppmi_denoised_apply(&source, rgba);
+}
+
 ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float *values,
                                  size_t value_count)
 {
@@ -654,6 +673,7 @@ ppm_status ppm_render_read_layer(const ppm_render *render, uint32_t index, float
         ppmi_features_read(&render->job, render->features, layer, values);
         return PPM_STATUS_OK;
     }
+    if (layer->kind == PPM_LAYER_DENOISED) return read_denoised(render, values, value_count);
     render->integrator->read_layer(&render->job, render->state, layer->kind, layer->number,
                                    render->stats.passes, values);
     return PPM_STATUS_OK;

@@ -31,6 +31,16 @@ static void assert_all_refused(const refusal *cases, size_t count, int status)
 #define ASSERT_ALL_REFUSED(cases, status)                                                          \
     assert_all_refused(cases, sizeof(cases) / sizeof((cases)[0]), status)
 
+static void denoising_one_pass_is_refused(void **state)
+{
+    (void)state;
+    static const refusal cases[] = {
+        {"--denoise -n 1 tiny.gltf", "--denoise tells noise by the differences between passes"},
+        {"--aov denoised -n 1 tiny.gltf", "it needs 2 at least"},
+    };
+    ASSERT_ALL_REFUSED(cases, 1);
+}
+
 static void unknown_options_name_the_nearest(void **state)
 {
     (void)state;
@@ -243,6 +253,7 @@ static void output_that_cannot_be_shown_is_no_success(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(denoising_one_pass_is_refused),
         cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(bad_values_name_option_and_value),
         cmocka_unit_test(options_that_would_do_nothing_are_refused),
