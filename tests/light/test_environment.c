@@ -175,6 +175,28 @@ static void radiance_by_density_has_the_right_mean(void **state)
     family_check(&family);
 }
 
+/* Filtering takes a sun's light into the pixels around it. What a direction then brings by its
+ * density is at most 16 times the mean (at the corner of the pixel across: a quarter of the sun,
+ * where the pixel has 1/64 of it in the mean) over the share that follows the image. */
+static void no_direction_outshines_its_density(void **state)
+{
+    (void)state;
+    float pixels[3 * WIDTH * HEIGHT];
+    fill_with_sun(pixels);
+    open_map(pixels, 0.0f);
+    const int grid = 1000;
+    double most = 0.0;
+    for (int i = 0; i < grid * grid; i++) {
+        const ppmi_vec3 d = ppmi_sample_sphere(((float)(i / grid) + 0.5f) / (float)grid,
+                                               ((float)(i % grid) + 0.5f) / (float)grid);
+        const float radiance = ppmi_environment_map_radiance(&map, d).x;
+        most = fmax(most, (double)(radiance / ppmi_environment_map_pdf(&map, d)));
+    }
+    const double mean = (double)map.integral.x;
+    assert_true(most > 2.0 * mean);
+    assert_true(most < 18.0 * mean);
+}
+
 static void a_constant_map_is_drawn_evenly(void **state)
 {
     (void)state;
@@ -205,6 +227,7 @@ int main(void)
         WITH_SCENE(rotation_turns_the_image_counter_clockwise_from_above),
         WITH_SCENE(directions_are_drawn_with_their_density),
         WITH_SCENE(radiance_by_density_has_the_right_mean),
+        WITH_SCENE(no_direction_outshines_its_density),
         WITH_SCENE(a_constant_map_is_drawn_evenly),
         WITH_SCENE(a_black_map_is_no_fault),
     };
