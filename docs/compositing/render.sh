@@ -16,7 +16,8 @@ mkdir -p $out
 show() {
     file=$1 name=$2
     shift 2
-    oiiotool "$file" --ch R,G,B "$@" --tocolorspace sRGB --compression jpeg:90 -o "$here/$name.jpg"
+    oiiotool "$file" --ch R,G,B "$@" --tocolorspace sRGB --eraseattrib DateTime \
+        --compression jpeg:90 -o "$here/$name.jpg"
 }
 
 # One render, taken apart.

@@ -18,12 +18,25 @@ static int choose_node(cli_console *console, ppm_scene *scene, const char *text)
     return is_found ? EXIT_DONE : nodes_complain(console, scene, "--catcher", "no node", text);
 }
 
+/* By its name, not by "all". */
+static bool asks_for_layer(const cli_options *options)
+{
+    const uint64_t wanted = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
+    const uint64_t all = PPM_LAYER_BIT(PPM_LAYER_KINDS) - 1;
+    return options->layers & wanted && options->layers != all;
+}
+
 int catchers_choose(cli_console *console, ppm_scene *scene, const cli_options *options)
 {
     int result = EXIT_DONE;
     for (size_t i = 0; i < options->catcher_count && result == EXIT_DONE; i++)
         result = choose_node(console, scene, options->catchers[i]);
     const uint32_t count = ppm_scene_catcher_count(scene);
+    if (result == EXIT_DONE && count == 0 && asks_for_layer(options)) {
+        console_message(console, PPM_LOG_ERROR,
+                        "--aov catcher: there is no catcher in the scene; --catcher makes one");
+        return EXIT_USAGE;
+    }
     if (result == EXIT_DONE && count > 0) {
         console_message(console, PPM_LOG_INFO,
                         "%u catcher%s: rendered alone first, then with all else", count,

@@ -29,6 +29,7 @@ static uint64_t bits_of(const char *name)
     if (strcmp(name, "crypto") == 0) {
         return bits_between(PPM_LAYER_CRYPTO_OBJECT, PPM_LAYER_CRYPTO_ASSET);
     }
+    if (strcmp(name, "light_variance") == 0) return PPM_LAYER_BIT(PPM_LAYER_LIGHT_VARIANCE);
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++) {
         if (strcmp(name, ppm_layer_kind_name(kind)) == 0) return PPM_LAYER_BIT(kind);
     }
@@ -37,13 +38,14 @@ static uint64_t bits_of(const char *name)
 
 static int complain_of_name(const option_table *table, const option_row *row, const char *name)
 {
-    const char *names[PPM_LAYER_KINDS + 2] = {"all", "crypto"};
+    enum { WORDS = 3 };
+    const char *names[WORDS + PPM_LAYER_KINDS] = {"all", "crypto", "light_variance"};
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++)
-        names[kind + 2] = ppm_layer_kind_name(kind);
-    const char *const nearest = ppmi_suggest(name, names, PPM_LAYER_KINDS + 2);
+        names[WORDS + kind] = ppm_layer_kind_name(kind);
+    const char *const nearest = ppmi_suggest(name, names, WORDS + PPM_LAYER_KINDS);
     fprintf(stderr, "%s: error: --%s: there is no layer '%s'", table->program, row->name, name);
     if (nearest) fprintf(stderr, "; did you mean '%s'?", nearest);
-    fputs("\nLayers: all, crypto", stderr);
+    fputs("\nLayers: all, crypto, light_variance", stderr);
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++) {
         const bool is_second = kind == PPM_LAYER_GROUP_CAUSTICS || kind == PPM_LAYER_LIGHT_VARIANCE;
         if (!is_second) fprintf(stderr, ", %s", ppm_layer_kind_name(kind));

@@ -101,6 +101,24 @@ static void a_catcher_that_is_not_there_is_refused(void **state)
     assert_contains(result.err, "no node with a surface is called 'Flor'; did you mean 'Floor'?");
 }
 
+static void a_catchers_layer_without_a_catcher_is_refused(void **state)
+{
+    (void)state;
+    const outcome result = run_program(QUICK "--aov caustics,catcher -o no.exr tiny.gltf");
+    assert_int_equal(result.status, 1);
+    assert_contains(result.err, "--aov catcher: there is no catcher in the scene");
+    run_well(QUICK "--aov all -o all.exr tiny.gltf");
+}
+
+static void variances_of_light_layers_go_by_a_word(void **state)
+{
+    (void)state;
+    float values[PIXELS];
+    run_well("-q -s 16x16 -n 4 -i path --aov light_variance -o variance.exr tiny.gltf");
+    read_channel("variance.exr", "variance.diffuse_direct.g", values);
+    assert_true(largest(values) > 0.0f);
+}
+
 /* The floor has nothing on it: of both renders it is the same, but for the lamp's mesh before it.
  */
 static void an_empty_catcher_is_clear(void **state)
@@ -199,6 +217,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_catcher_that_is_not_there_is_refused),
+        cmocka_unit_test(a_catchers_layer_without_a_catcher_is_refused),
+        cmocka_unit_test(variances_of_light_layers_go_by_a_word),
         cmocka_unit_test(groups_of_a_file_add_up_to_its_picture),
         cmocka_unit_test(an_empty_catcher_is_clear),
         cmocka_unit_test(with_a_catcher_it_is_another_scene),
