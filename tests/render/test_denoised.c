@@ -136,6 +136,38 @@ static void the_bit_of_the_layer_is_enough(void **state)
     free(by_layer);
 }
 
+static void what_a_plate_is_taken_from_stays_as_it_is(void **state)
+{
+    (void)state;
+    const ppm_instance_id wall =
+        layers_add_quad(test.scene, "wall", material_lambert(test.scene, 0.5f), vec3(-9, -9, 0),
+                        vec3(18, 0, 0), vec3(0, 18, 0));
+    layers_add_quad(test.scene, "lamp", material_emitter(test.scene, 1.0f, 0.0f, true),
+                    vec3(-1, 2, 0), vec3(2, 0, 0), vec3(0, 0, 1));
+    layers_add_quad(test.scene, "card", material_lambert(test.scene, 0.7f), vec3(0, -9, 0.2f),
+                    vec3(9, 0, 0), vec3(0, 18, 0));
+    camera_perspective(test.scene, vec3(0, 0, 3), vec3(0, 0, 0), 0.8f);
+    assert_int_equal(ppm_scene_set_instance_catcher(test.scene, wall, 1), PPM_STATUS_OK);
+    const ppm_render_options options = options_of(PPM_INTEGRATOR_PATH);
+    static float plate[4 * PIXELS];
+    for (size_t i = 0; i < 4 * PIXELS; i++)
+        plate[i] = i % 4 == 3 ? 1.0f : 0.01f;
+    ppm_render *render = layers_render(test.scene, &options, 8);
+    assert_int_equal(ppm_render_set_plate(render, plate, 4 * PIXELS), PPM_STATUS_OK);
+    float *picture = layers_read(render, PPM_LAYER_COMBINED, 0);
+    float *denoised = layers_read(render, PPM_LAYER_DENOISED, 0);
+    uint32_t changed = 0;
+    for (size_t i = 0; i < PIXELS; i++) { /* the catcher is on the left, the card on the right */
+        const bool is_same = memcmp(picture + 4 * i, denoised + 4 * i, 3 * sizeof *picture) == 0;
+        if (i % WIDTH < WIDTH / 2 - 2) assert_true(is_same);
+        if (i % WIDTH > WIDTH / 2 + 2) changed += !is_same;
+    }
+    assert_true(changed > PIXELS / 8);
+    free(picture);
+    free(denoised);
+    ppm_render_destroy(render);
+}
+
 /* ---- errors ---------------------------------------------------------------------------------- */
 
 /* As ppm-compare: the mean of squared errors by the squares of the truth, of the color channels. */
@@ -271,6 +303,7 @@ int main(void)
         WITH_SCENE(memory_that_is_out_while_reading_is_reported),
         WITH_SCENE(the_picture_itself_is_the_same_as_without),
         WITH_SCENE(the_bit_of_the_layer_is_enough),
+        WITH_SCENE(what_a_plate_is_taken_from_stays_as_it_is),
         cmocka_unit_test(the_error_does_not_grow_in_any_scene),
         cmocka_unit_test(caustics_stay_sharp),
     };
