@@ -4,9 +4,10 @@
 
 #include "denoise/denoise.h"
 
-/* Pictures of three floats a pixel but for depth. */
+/* Pictures of three floats a pixel but for depth and share. */
 typedef struct denoised_memory {
     float *albedo, *normal, *depth, *light, *filtered, *variance;
+    float *share; /* of what the filter changes that the picture takes; NULL: all of it */
 } denoised_memory;
 
 static float *make_plane(const ppmi_job *job, size_t channels)
@@ -22,12 +23,18 @@ static void give_memory_back(const ppmi_job *job, denoised_memory *memory)
     ppmi_free(job->context, memory->light);
     ppmi_free(job->context, memory->filtered);
     ppmi_free(job->context, memory->variance);
+    ppmi_free(job->context, memory->share);
 }
 
 static ppm_status take_memory(const ppmi_job *job, denoised_memory *memory)
 {
-    *memory = (denoised_memory){make_plane(job, 3), make_plane(job, 3), make_plane(job, 1),
-                                make_plane(job, 3), make_plane(job, 3), make_plane(job, 3)};
+    *memory = (denoised_memory){make_plane(job, 3),
+                                make_plane(job, 3),
+                                make_plane(job, 1),
+                                make_plane(job, 3),
+                                make_plane(job, 3),
+                                make_plane(job, 3),
+                                NULL};
     if (memory->albedo && memory->normal && memory->depth && memory->light && memory->filtered &&
         memory->variance) {
         return PPM_STATUS_OK;
@@ -35,6 +42,27 @@ static ppm_status take_memory(const ppmi_job *job, denoised_memory *memory)
     give_memory_back(job, memory);
     return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: denoising %u x %u",
                      job->film.width, job->film.height);
+}
+
+/* A catcher's picture is its light less that of the plate, whose noise is much the same and goes
+ * with it; to filter one of the two alone would bring the other's noise back. */
+static ppm_status leave_catchers_out(const ppmi_denoised_source *source, denoised_memory *memory)
+{
+    const ppmi_job *job = source->job;
+    const size_t pixels = ppmi_film_pixel_count(&job->film);
+    float *catchers = make_plane(job, 4);
+    memory->share = make_plane(job, 1);
+    if (!catchers || !memory->share) {
+        ppmi_free(job->context, catchers);
+        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: denoising %u x %u",
+                         job->film.width, job->film.height);
+    }
+    source->integrator->read_layer(job, source->state, PPM_LAYER_CATCHER, 0, source->passes,
+                                   catchers);
+    for (size_t i = 0; i < pixels; i++)
+        memory->share[i] = ppmi_clampf(1.0f - catchers[4 * i + 3], 0.0f, 1.0f);
+    ppmi_free(job->context, catchers);
+    return PPM_STATUS_OK;
 }
 
 static void read_feature(const ppmi_denoised_source *source, int32_t kind, uint32_t channels,
@@ -87,8 +115,10 @@ static ppm_status filter_layer(const ppmi_denoised_source *source, int32_t kind,
     const ppm_status status =
         ppmi_denoise(job->context, guide, memory->variance, correlation_px, memory->filtered);
     if (status != PPM_STATUS_OK) return status;
-    for (size_t i = 0; i < 3 * pixels; i++)
-        rgba[4 * (i / 3) + i % 3] += memory->filtered[i] - memory->light[i];
+    for (size_t i = 0; i < 3 * pixels; i++) {
+        const float share = memory->share ? memory->share[i / 3] : 1.0f;
+        rgba[4 * (i / 3) + i % 3] += share * (memory->filtered[i] - memory->light[i]);
+    }
     return PPM_STATUS_OK;
 }
 
@@ -98,6 +128,7 @@ ppm_status ppmi_denoised_apply(const ppmi_denoised_source *source, float *rgba)
     denoised_memory memory;
     ppm_status status = take_memory(job, &memory);
     if (status != PPM_STATUS_OK) return status;
+    if (source->has_plate) status = leave_catchers_out(source, &memory);
     read_feature(source, PPM_LAYER_ALBEDO, 3, memory.albedo);
     read_feature(source, PPM_LAYER_NORMAL, 3, memory.normal);
     read_feature(source, PPM_LAYER_DEPTH, 1, memory.depth);

@@ -11,6 +11,7 @@ typedef struct ppmi_denoised_source {
     const void *state;
     const ppmi_features *features;
     uint64_t passes;
+    bool has_plate; /* the picture holds catchers less their plate: those are left as they are */
 } ppmi_denoised_source;
 
 /* Takes the noise out of the session's picture: adds what the filter changes of each light layer.

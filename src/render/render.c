@@ -648,7 +648,8 @@ static ppm_status read_denoised(const ppm_render *render, float *rgba, size_t va
                                          .integrator = render->integrator,
                                          .state = render->state,
                                          .features = render->features,
-                                         .passes = render->stats.passes};
+                                         .passes = render->stats.passes,
+                                         .has_plate = render->plate != NULL};
     return ppmi_denoised_apply(&source, rgba);
 }
 
