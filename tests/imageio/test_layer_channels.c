@@ -63,7 +63,8 @@ static void names_are_whole_and_differ(void **state)
     test_scene test;
     ppmi_layer_channels all;
     ppm_render *const render = open_render(&test);
-    assert_int_equal(ppmi_layer_channels_init(test.context, render, false, true, &all), PPM_STATUS_OK);
+    assert_int_equal(ppmi_layer_channels_init(test.context, render, false, true, &all),
+                     PPM_STATUS_OK);
     find(&all, "R");
     find(&all, "Z");
     find(&all, "variance.r");
@@ -91,7 +92,8 @@ static void half_floats_are_for_what_bears_them(void **state)
     test_scene test;
     ppmi_layer_channels all;
     ppm_render *const render = open_render(&test);
-    assert_int_equal(ppmi_layer_channels_init(test.context, render, true, true, &all), PPM_STATUS_OK);
+    assert_int_equal(ppmi_layer_channels_init(test.context, render, true, true, &all),
+                     PPM_STATUS_OK);
     assert_int_equal(find(&all, "R")->store, PPMI_STORE_HALF);
     assert_int_equal(find(&all, "light.Key_001.R")->store, PPMI_STORE_HALF);
     assert_int_equal(find(&all, "Z")->store, PPMI_STORE_FLOAT);
