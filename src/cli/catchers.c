@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "layer_values.h"
 #include "nodes.h"
 
 /* ---- choice ---------------------------------------------------------------------------------- */
@@ -22,8 +23,8 @@ static int choose_node(cli_console *console, ppm_scene *scene, const char *text)
 static bool asks_for_layer(const cli_options *options)
 {
     const uint64_t wanted = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
-    const uint64_t all = PPM_LAYER_BIT(PPM_LAYER_KINDS) - 1;
-    return options->layers & wanted && options->layers != all;
+    const uint64_t all = layer_bits_of_all();
+    return options->layers & wanted && (options->layers & all) != all;
 }
 
 int catchers_choose(cli_console *console, ppm_scene *scene, const cli_options *options)

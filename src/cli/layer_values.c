@@ -21,11 +21,16 @@ static uint64_t bits_between(int32_t first, int32_t last)
     return bits;
 }
 
+uint64_t layer_bits_of_all(void)
+{
+    return bits_between(0, PPM_LAYER_KINDS - 1) & ~PPM_LAYER_BIT(PPM_LAYER_DENOISED);
+}
+
 /* 0: there is none of that name. The first of a name counts: caustics of groups are called as the
  * caustics of all light. */
 static uint64_t bits_of(const char *name)
 {
-    if (strcmp(name, "all") == 0) return bits_between(0, PPM_LAYER_DENOISED - 1);
+    if (strcmp(name, "all") == 0) return layer_bits_of_all();
     if (strcmp(name, "crypto") == 0) {
         return bits_between(PPM_LAYER_CRYPTO_OBJECT, PPM_LAYER_CRYPTO_ASSET);
     }

@@ -26,7 +26,7 @@ static void wrong_options_are_explained(void **state)
     static const refusal cases[] = {
         {"--aov caustic tiny.gltf", "there is no layer 'caustic'; did you mean 'caustics'?"},
         {"--aov albedo,,uv tiny.gltf", "there is no layer ''"},
-        {"--aov zzzzzzzz tiny.gltf", "Layers: all, crypto, combined"},
+        {"--aov zzzzzzzz tiny.gltf", "Layers: all, crypto, light_variance, combined"},
         {"--aov", "--aov needs a value"},
         {"--light-groups=gven tiny.gltf", "did you mean 'given'?"},
         {"--normals worl tiny.gltf", "did you mean 'world'?"},

@@ -98,7 +98,7 @@ static void a_catcher_that_is_not_there_is_refused(void **state)
     (void)state;
     const outcome result = run_program(QUICK "--catcher Flor -o no.exr tiny.gltf");
     assert_int_equal(result.status, 1);
-    assert_contains(result.err, "no node with a surface is called 'Flor'; did you mean 'Floor'?");
+    assert_contains(result.err, "'Flor' is no node with a surface; did you mean 'Floor'?");
 }
 
 static void a_catchers_layer_without_a_catcher_is_refused(void **state)
@@ -144,7 +144,7 @@ static void read_scene_digest(const char *path, char out[64])
     ppmi_layered_input *input = NULL;
     ppmi_layered_info info;
     assert_int_equal(ppmi_layered_input_open(NULL, path, &input, &info), PPM_STATUS_OK);
-    const ppmi_image_attribute *const scene = ppmi_layered_input_find(input, "ppm:scene");
+    const ppmi_image_attribute *const scene = ppmi_layered_input_find(input, "ppm:sceneDigest");
     assert_non_null(scene);
     snprintf(out, 64, "%s", scene->text);
     ppmi_layered_input_close(NULL, input);
