@@ -216,12 +216,12 @@ typedef struct ppm_render_stats {
 PPM_API ppm_status ppm_render_get_stats(const ppm_render *render, ppm_render_stats *out_stats);
 
 /* Gives the session what its catchers look like alone: the layer PPM_LAYER_CATCHER of a session of
- * the same camera, size and crop, made while ppm_scene_show_catchers_alone was in effect. From then
- * on, of what the camera sees of catchers, the picture holds what light all else adds, with alpha
- * for what it takes away: over the plate the picture is what it would be without this call, over a
- * photograph of the same things it is the photograph with all else in it. The copied values are
- * value_count = 4 * width * height floats. Layers stay as they are. Returns OK, INVALID_ARGUMENT,
- * WRONG_STATE (no catcher in the scene), OUT_OF_MEMORY. */
+ * the same camera, focus, size and crop, made while ppm_scene_show_catchers_alone was in effect.
+ * From then on, of what the camera sees of catchers, the picture holds what light all else adds,
+ * with alpha for what it takes away: over the plate the picture is what it would be without this
+ * call, over a photograph of the same things it is the photograph with all else in it. The copied
+ * values are value_count = 4 * width * height floats. Layers stay as they are. Returns OK,
+ * INVALID_ARGUMENT, WRONG_STATE (no catcher in the scene), OUT_OF_MEMORY. */
 PPM_API ppm_status ppm_render_set_plate(ppm_render *render, const float *rgba, size_t value_count);
 
 /* Copies the picture so far: 4 * width * height floats (with a crop, of its pixels only), RGBA, row

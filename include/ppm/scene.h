@@ -300,10 +300,9 @@ PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_d
  * would refuse, and OUT_OF_MEMORY; a call that fails changes nothing. Names stay as they were. What
  * does not change keeps its acceleration structure for the next session. */
 
-/* A new transform, or motion, as in ppm_instance_desc; name, mesh, asset and
- * light_group of desc are not used. While
- * its transform is singular (at all motion steps) the instance is not there: give one that is not
- * to ppm_scene_add_instance, which drops such instances, where they are to appear later. */
+/* A new transform, or motion, as in ppm_instance_desc; of desc nothing else is used. While its
+ * transform is singular (at all motion steps) the instance is not there: give one that is not to
+ * ppm_scene_add_instance, which drops such instances, where they are to appear later. */
 PPM_API ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
                                           const ppm_instance_desc *desc);
 /* Whether the instance is there at all: for rays, light and bounds; it is when added. */

@@ -3,6 +3,7 @@
  * --skip-existing the next day, takes it for finished. */
 #include "render_picture.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "brightness.h"
@@ -23,6 +24,7 @@ int picture_prepare(const picture_task *task, ppm_render **out_render)
         wanted.layers = PPM_LAYER_BIT(PPM_LAYER_CATCHER);
         wanted.denoise = 0;
     }
+    if (task->focus_distance_m > 0.0f) wanted.focus_distance_m = task->focus_distance_m;
     ppm_status status = ppm_render_create(task->scene, &wanted, out_render);
     if (status == PPM_STATUS_OK && task->plate) {
         status = ppm_render_set_plate(*out_render, task->plate, task->plate_count);
@@ -176,17 +178,33 @@ int picture_render(const picture_task *task, ppm_render *render, picture_result 
     return status;
 }
 
+/* A camera that frames the scene, and a lens that focuses on what is before it, do so with all
+ * things there: for the plate, too. */
+static int settle_view(picture_task *task)
+{
+    ppm_render *render = NULL;
+    const int result = picture_prepare(task, &render);
+    if (result != EXIT_DONE) return result;
+    const ppm_render_options *const options = ppm_render_get_options(render);
+    if (!isinf(options->aperture_f_number)) task->focus_distance_m = options->focus_distance_m;
+    ppm_render_destroy(render);
+    task->console->is_repeating = true;
+    return EXIT_DONE;
+}
+
 int picture_render_plate(picture_task *task, float **out_plate)
 {
+    *out_plate = NULL;
+    int result = settle_view(task);
+    if (result != EXIT_DONE) return result;
     picture_task plate_task = *task;
     plate_task.is_plate = true;
     plate_task.label = "catchers alone";
     plate_task.is_first = false; /* what begins is told of the picture */
     ppm_render *render = NULL;
     bool is_whole = false;
-    *out_plate = NULL;
     if (ppm_scene_show_catchers_alone(task->scene, 1) != PPM_STATUS_OK) return EXIT_RESOURCES;
-    int result = picture_prepare(&plate_task, &render);
+    result = picture_prepare(&plate_task, &render);
     if (result == EXIT_DONE)
         result = run_passes(&plate_task, render, &task->plate_passes, &is_whole);
     if (result == EXIT_DONE && is_whole)

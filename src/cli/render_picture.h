@@ -25,6 +25,7 @@ typedef struct picture_task {
     size_t plate_count;         /* values */
     uint64_t plate_passes;      /* that it took */
     bool is_plate;              /* this is that */
+    float focus_distance_m;     /* found with all things there; 0: as the options say */
 } picture_task;
 
 typedef struct picture_result {

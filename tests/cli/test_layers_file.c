@@ -101,6 +101,41 @@ static void a_catcher_that_is_not_there_is_refused(void **state)
     assert_contains(result.err, "'Flor' is no node with a surface; did you mean 'Floor'?");
 }
 
+static void read_text(const char *path, const char *name, char out[64])
+{
+    ppmi_layered_input *input = NULL;
+    ppmi_layered_info info;
+    assert_int_equal(ppmi_layered_input_open(NULL, path, &input, &info), PPM_STATUS_OK);
+    const ppmi_image_attribute *const found = ppmi_layered_input_find(input, name);
+    assert_non_null(found);
+    snprintf(out, 64, "%s", found->text);
+    ppmi_layered_input_close(NULL, input);
+}
+
+/* A board stands on a wide floor. The plate has no board to frame, nor to focus on. */
+static void the_view_is_that_of_all_things(void **state)
+{
+    (void)state;
+    char plain[64], caught[64];
+    write_text("board.obj", "v -9 0 9\nv 9 0 9\nv 9 0 -9\nv -9 0 -9\n"
+                            "v 7 0 0\nv 9 0 0\nv 9 8 0\nv 7 8 0\n"
+                            "o Floor\nf 1 2 3 4\no Board\nf 5 6 7 8\n");
+    run_well(QUICK "-i path -o plain.exr board.obj");
+    run_well(QUICK "-i path --catcher Floor -o caught.exr board.obj");
+    read_text("plain.exr", "ppm:cameraDigest", plain);
+    read_text("caught.exr", "ppm:cameraDigest", caught);
+    assert_string_equal(caught, plain);
+
+    /* the board is in the middle; behind it the floor is farther off */
+    write_text("board.ppm.json", "{\"cameras\":[{\"name\":\"C\",\"position\":[8,4,6],"
+                                 "\"target\":[8,3,0],\"fov\":20}]}");
+    const outcome lens =
+        run_program("-s 16x16 -n 2 -i path --aperture 2 --catcher Floor -o caught.exr board.obj");
+    assert_int_equal(lens.status, 0);
+    assert_contains(lens.err, "focused on what is in the middle of the picture, at 6.");
+    assert_null(strstr(strstr(lens.err, "focused on") + 1, "focused on"));
+}
+
 static void a_catchers_layer_without_a_catcher_is_refused(void **state)
 {
     (void)state;
@@ -139,17 +174,6 @@ static void an_empty_catcher_is_clear(void **state)
     assert_true(count > 10);
 }
 
-static void read_scene_digest(const char *path, char out[64])
-{
-    ppmi_layered_input *input = NULL;
-    ppmi_layered_info info;
-    assert_int_equal(ppmi_layered_input_open(NULL, path, &input, &info), PPM_STATUS_OK);
-    const ppmi_image_attribute *const scene = ppmi_layered_input_find(input, "ppm:sceneDigest");
-    assert_non_null(scene);
-    snprintf(out, 64, "%s", scene->text);
-    ppmi_layered_input_close(NULL, input);
-}
-
 /* ppm-merge goes by the digest: it would mix a picture with what lies over a photograph. */
 static void with_a_catcher_it_is_another_scene(void **state)
 {
@@ -157,8 +181,8 @@ static void with_a_catcher_it_is_another_scene(void **state)
     char without[64], with[64];
     run_well(QUICK "--transparent -o without.exr tiny.gltf");
     run_well(QUICK "--catcher Floor -o with.exr tiny.gltf");
-    read_scene_digest("without.exr", without);
-    read_scene_digest("with.exr", with);
+    read_text("without.exr", "ppm:sceneDigest", without);
+    read_text("with.exr", "ppm:sceneDigest", with);
     assert_string_not_equal(with, without);
 }
 
@@ -217,6 +241,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_catcher_that_is_not_there_is_refused),
+        cmocka_unit_test(the_view_is_that_of_all_things),
         cmocka_unit_test(a_catchers_layer_without_a_catcher_is_refused),
         cmocka_unit_test(variances_of_light_layers_go_by_a_word),
         cmocka_unit_test(groups_of_a_file_add_up_to_its_picture),
