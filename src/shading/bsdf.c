@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "shading/glass_lobe.h"
 #include "shading/layers.h"
 #include "shading/microfacet.h"
 
@@ -78,48 +79,6 @@ static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_
     choose_by_albedo(bsdf, albedos, 3);
 }
 
-/* 1 - E of a rough glass lobe on the side where eta is the index beyond. A thin sheet transmits
- * what it reflects, mirrored: its E is that of a surface that reflects all. */
-static float glass_lost(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float eta,
-                        float cosine)
-{
-    if (!bsdf->is_thin) return ppmi_glass_lost(albedo->glass, bsdf->roughness, eta, cosine);
-    const ppmi_albedo_pair pair = ppmi_albedo_directional(albedo, bsdf->roughness, cosine);
-    return ppmi_max(1.0f - pair.a - pair.b, 0.0f);
-}
-
-static float glass_lost_average(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float eta)
-{
-    if (!bsdf->is_thin) return ppmi_glass_lost_average(albedo->glass, bsdf->roughness, eta);
-    const ppmi_albedo_pair pair = ppmi_albedo_average(albedo, bsdf->roughness);
-    return ppmi_max(1.0f - pair.a - pair.b, 0.0f);
-}
-
-/* What single scattering loses comes back on both sides, by m(w) = 1 - E(w) of either direction
- * (Kulla and Conty 2017). With M the mean of m, weighted by the cosine, and a share t of it that
- * goes through,
- *
- *     f(o, i) = (1 - t) m(o) m(i) / (pi M)    on o's side,
- *     f(o, i) = t m(o) m'(i) / (pi M')        beyond (primed), for power,
- *
- * all that is lost comes back. It is the same both ways if t / (n'^2 M') = t' / (n^2 M), n the
- * index. Fresnel's mean transmittance T has n^2 T = n'^2 T'; so t = T min(1, M' / M). */
-__attribute__((noinline)) static void make_rough_glass(ppmi_bsdf *bsdf,
-                                                       const ppmi_albedo_table *albedo)
-{
-    const float eta = bsdf->eta, beyond = bsdf->is_thin ? eta : 1.0f / eta;
-    const float here_average = ppmi_max(glass_lost_average(bsdf, albedo, eta), 1e-7f);
-    const float beyond_average = ppmi_max(glass_lost_average(bsdf, albedo, beyond), 1e-7f);
-    float through = bsdf->is_thin ? ppmi_glass_sheet_transmitted_average(albedo->glass, eta)
-                                  : ppmi_glass_transmitted_average(albedo->glass, eta);
-    through *= ppmi_min(1.0f, beyond_average / here_average);
-    bsdf->glass_lost = glass_lost(bsdf, albedo, eta, bsdf->wo.z);
-    bsdf->glass_returned = 1.0f - through;
-    const float lost = bsdf->glass_weight * bsdf->glass_lost * PPMI_INV_PI;
-    bsdf->glass_back = lost * (1.0f - through) / here_average;
-    bsdf->glass_through = lost * through / beyond_average;
-}
-
 /* The index ratio and roughness of the glass lobe. */
 static void make_glass(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                        const ppmi_material_point *point, bool is_outside)
@@ -134,7 +93,7 @@ static void make_glass(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     /* without an index step there is no half vector: the ray goes straight on */
     if (fabsf(bsdf->eta - 1.0f) < 1e-3f) bsdf->glass_alpha = 0.0f;
     if (bsdf->glass_weight > 0.0f && bsdf->glass_alpha >= PPMI_SMOOTH_ALPHA) {
-        make_rough_glass(bsdf, albedo);
+        ppmi_glass_lobe_make(bsdf, albedo);
     }
 }
 
@@ -257,147 +216,6 @@ static float spec_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
     return ppmi_ggx_visible_d(bsdf->alpha, bsdf->wo, h) / (4.0f * cos_oh);
 }
 
-/* Reflectance of a thin sheet: both faces and the light that goes to and fro between them,
- * R + T R T + T R^3 T + ... = 2 R / (1 + R). */
-static float fold_faces(const ppmi_bsdf *bsdf, float r)
-{
-    return bsdf->is_thin ? 2.0f * r / (1.0f + r) : r;
-}
-
-/* Under a film reflection has a colour. */
-static ppmi_vec3 film_reflectance(const ppmi_bsdf *bsdf, float cos_h)
-{
-    float cos_t;
-    const float r = ppmi_fresnel_dielectric(cos_h, bsdf->eta, &cos_t);
-    if (cos_t == 0.0f) return vec3_splat(1.0f);
-    const ppmi_vec3 film = ppmi_layers_glass(bsdf, r, bsdf->eta < 1.0f ? cos_t : cos_h);
-    return vec3(fold_faces(bsdf, film.x), fold_faces(bsdf, film.y), fold_faces(bsdf, film.z));
-}
-
-/* What is not transmitted; under a film the most of all channels. */
-static float glass_reflectance(const ppmi_bsdf *bsdf, float cos_h, float *out_cos_t)
-{
-    const float r = ppmi_fresnel_dielectric(cos_h, bsdf->eta, out_cos_t);
-    if (ppmi_layers_have_film(bsdf)) return vec3_max_component(film_reflectance(bsdf, cos_h));
-    return fold_faces(bsdf, r);
-}
-
-/* What is reflected, where glass_reflectance is reflectance. */
-static ppmi_vec3 glass_tone(const ppmi_bsdf *bsdf, float cos_h, float reflectance)
-{
-    return ppmi_layers_have_film(bsdf) ? film_reflectance(bsdf, cos_h) : vec3_splat(reflectance);
-}
-
-/* A thin sheet's transmission lobe is the reflection lobe, flipped through the sheet. */
-static ppmi_vec3 thin_fold(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    return bsdf->is_thin && wi.z < 0.0f ? vec3(wi.x, wi.y, -wi.z) : wi;
-}
-
-/* The half vector of a direction pair, on the side of wo; for refraction equation 16 of Walter et
- * al. False where no microfacet connects the two. */
-static bool glass_half(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 *out_h)
-{
-    const bool is_reflection = wi.z > 0.0f;
-    ppmi_vec3 h = is_reflection ? vec3_add(bsdf->wo, wi) : vec3_mad(bsdf->wo, wi, bsdf->eta);
-    if (vec3_length2(h) < 1e-16f) return false;
-    h = vec3_normalize(h);
-    if (h.z < 0.0f) h = vec3_neg(h);
-    *out_h = h;
-    const float cos_i = vec3_dot(wi, h);
-    return vec3_dot(bsdf->wo, h) > 0.0f && (is_reflection ? cos_i > 0.0f : cos_i < 0.0f);
-}
-
-/* Density of wi per density of its half vector: equations 14 and 17 of Walter et al. */
-static float glass_jacobian(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 h)
-{
-    if (wi.z > 0.0f) return 1.0f / (4.0f * vec3_dot(wi, h));
-    const float denominator = vec3_dot(bsdf->wo, h) + bsdf->eta * vec3_dot(wi, h);
-    return bsdf->eta * bsdf->eta * fabsf(vec3_dot(wi, h)) /
-           ppmi_max(denominator * denominator, 1e-12f);
-}
-
-/* Radiance is squeezed into a smaller cone where it enters a denser solid, power is not. */
-static float transmitted_scale(const ppmi_bsdf *bsdf, ppmi_transport transport)
-{
-    if (transport != PPMI_TRANSPORT_RADIANCE || bsdf->is_thin) return 1.0f;
-    return 1.0f / (bsdf->eta * bsdf->eta);
-}
-
-/* What comes back of what single scattering loses. Light that goes through is tinted once. */
-static ppmi_vec3 glass_multiple_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                                     ppmi_vec3 wi, ppmi_transport transport)
-{
-    if (wi.z > 0.0f) {
-        return vec3_splat(bsdf->glass_back * glass_lost(bsdf, albedo, bsdf->eta, wi.z));
-    }
-    const float beyond = bsdf->is_thin ? bsdf->eta : 1.0f / bsdf->eta;
-    return vec3_scale(bsdf->tint, bsdf->glass_through * glass_lost(bsdf, albedo, beyond, -wi.z) *
-                                      transmitted_scale(bsdf, transport));
-}
-
-static ppmi_vec3 glass_single_eval(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
-{
-    const bool is_transmission = wi.z < 0.0f;
-    const ppmi_vec3 folded = thin_fold(bsdf, wi);
-    ppmi_vec3 h;
-    if (!glass_half(bsdf, folded, &h)) return vec3_splat(0.0f);
-    const float cos_oh = vec3_dot(bsdf->wo, h);
-    float cos_t;
-    const float reflectance = glass_reflectance(bsdf, cos_oh, &cos_t);
-    const float d = ppmi_ggx_d(bsdf->glass_alpha, h);
-    const float g = ppmi_ggx_g2(bsdf->glass_alpha, bsdf->wo.z, fabsf(wi.z));
-    const float common = bsdf->glass_weight * d * g * cos_oh * glass_jacobian(bsdf, folded, h) /
-                         (bsdf->wo.z * fabsf(wi.z));
-    if (!is_transmission) return vec3_scale(glass_tone(bsdf, cos_oh, reflectance), common);
-    return vec3_scale(bsdf->tint,
-                      common * (1.0f - reflectance) * transmitted_scale(bsdf, transport));
-}
-
-__attribute__((noinline)) static ppmi_vec3 glass_eval(const ppmi_bsdf *bsdf,
-                                                      const ppmi_albedo_table *albedo, ppmi_vec3 wi,
-                                                      ppmi_transport transport)
-{
-    return vec3_add(glass_single_eval(bsdf, wi, transport),
-                    glass_multiple_eval(bsdf, albedo, wi, transport));
-}
-
-/* Of directions by the cosine c, c / (c^2 + alpha^2) normalised: 1 - E falls with the cosine's
- * square beyond alpha, so that its product with the cosine is about this. */
-static float glass_multiple_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    const float alpha2 = bsdf->glass_alpha * bsdf->glass_alpha, c = fabsf(wi.z);
-    const float share = wi.z > 0.0f ? bsdf->glass_returned : 1.0f - bsdf->glass_returned;
-    return share * c / ((c * c + alpha2) * log1pf(1.0f / alpha2)) * PPMI_INV_PI;
-}
-
-static ppmi_vec3 draw_glass_multiple(const ppmi_bsdf *bsdf, float u_side, float u, float v)
-{
-    const float alpha2 = bsdf->glass_alpha * bsdf->glass_alpha;
-    const float c2 = ppmi_min(alpha2 * expm1f(u * log1pf(1.0f / alpha2)), 1.0f);
-    const float sine = sqrtf(1.0f - c2), phi = 2.0f * PPMI_PI * v;
-    const float c = ppmi_max(sqrtf(c2), 1e-6f);
-    return vec3(sine * cosf(phi), sine * sinf(phi), u_side < bsdf->glass_returned ? c : -c);
-}
-
-static float glass_single_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    const bool is_transmission = wi.z < 0.0f;
-    const ppmi_vec3 folded = thin_fold(bsdf, wi);
-    ppmi_vec3 h;
-    if (!glass_half(bsdf, folded, &h)) return 0.0f;
-    float cos_t;
-    const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);
-    return (is_transmission ? 1.0f - reflectance : reflectance) *
-           ppmi_ggx_visible_d(bsdf->glass_alpha, bsdf->wo, h) * glass_jacobian(bsdf, folded, h);
-}
-
-__attribute__((noinline)) static float glass_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    return (1.0f - bsdf->glass_lost) * glass_single_pdf(bsdf, wi) +
-           bsdf->glass_lost * glass_multiple_pdf(bsdf, wi);
-}
-
 /* Both normals must agree on which side wi is: light does not leak through the surface where the
  * shading normal leans over. */
 static bool sides_agree(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float local_z)
@@ -415,7 +233,7 @@ __attribute__((noinline)) static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf,
     if (sides_agree(bsdf, wi_world, wi.z)) {
         f = ppmi_layers_eval_base(bsdf, albedo, wi, mask);
         if (mask & PPMI_LOBE_GLASS) {
-            f = vec3_mad(f, glass_eval(bsdf, albedo, wi, transport),
+            f = vec3_mad(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport),
                          ppmi_layers_passing(bsdf, albedo, wi));
         }
     }
@@ -440,7 +258,7 @@ ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
         if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
         if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
     }
-    if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, glass_eval(bsdf, albedo, wi, transport));
+    if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport));
     return f;
 }
 
@@ -460,7 +278,8 @@ __attribute__((noinline)) static float layered_pdf(const ppmi_bsdf *bsdf, ppmi_v
     float pdf = 0.0f;
     if (sides_agree(bsdf, wi_world, wi.z)) {
         pdf = ppmi_layers_pdf_base(bsdf, wi, mask);
-        if (mask & PPMI_LOBE_GLASS) pdf += bsdf->lobe_probability[2] * glass_pdf(bsdf, wi);
+        if (mask & PPMI_LOBE_GLASS)
+            pdf += bsdf->lobe_probability[2] * ppmi_glass_lobe_pdf(bsdf, wi);
     }
     if (mask & PPMI_LOBE_COAT && vec3_dot(wi_world, bsdf->ng) > 0.0f) {
         pdf += bsdf->lobe_probability[4] * ppmi_layers_pdf_coat(bsdf, wi);
@@ -482,22 +301,11 @@ float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
         if (mask & PPMI_LOBE_WIDE) pdf += bsdf->lobe_probability[0] * wi.z * PPMI_INV_PI;
         if (mask & PPMI_LOBE_SPEC) pdf += bsdf->lobe_probability[1] * spec_pdf(bsdf, wi);
     }
-    if (mask & PPMI_LOBE_GLASS) pdf += bsdf->lobe_probability[2] * glass_pdf(bsdf, wi);
+    if (mask & PPMI_LOBE_GLASS) pdf += bsdf->lobe_probability[2] * ppmi_glass_lobe_pdf(bsdf, wi);
     return pdf / total;
 }
 
 /* ---- sampling -------------------------------------------------------------------------------- */
-
-static ppmi_vec3 reflect_about(ppmi_vec3 wo, ppmi_vec3 h)
-{
-    return vec3_sub(vec3_scale(h, 2.0f * vec3_dot(wo, h)), wo);
-}
-
-/* Refraction at a facet; cos_t from Fresnel. */
-static ppmi_vec3 refract_about(ppmi_vec3 wo, ppmi_vec3 h, float eta, float cos_t)
-{
-    return vec3_mad(vec3_scale(wo, -1.0f / eta), h, vec3_dot(wo, h) / eta - cos_t);
-}
 
 /* A mirrored direction that a leaning shading normal sent below the surface comes back out: a
  * black rim at silhouettes would be worse than this small turn. */
@@ -546,7 +354,7 @@ static void cover(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_v
 static void reflect_at_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                              ppmi_vec3 reflected, float share, ppmi_bsdf_sample *sample)
 {
-    const ppmi_vec3 local = reflect_about(bsdf->wo, local_up);
+    const ppmi_vec3 local = ppmi_reflect_about(bsdf->wo, local_up);
     sample->wi = lift_reflection(bsdf, ppmi_frame_to_world(&bsdf->frame, local));
     sample->weight = vec3_scale(reflected, share);
     cover(bsdf, albedo, local, sample);
@@ -557,11 +365,12 @@ static bool transmit_at_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
                               ppmi_transport transport, float cos_t, float share,
                               ppmi_bsdf_sample *sample)
 {
-    const ppmi_vec3 local =
-        bsdf->is_thin ? vec3_neg(bsdf->wo) : refract_about(bsdf->wo, local_up, bsdf->eta, cos_t);
+    const ppmi_vec3 local = bsdf->is_thin
+                                ? vec3_neg(bsdf->wo)
+                                : ppmi_refract_about(bsdf->wo, local_up, bsdf->eta, cos_t);
     sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, local));
     sample->is_transmission = true;
-    sample->eta_scale = transmitted_scale(bsdf, transport);
+    sample->eta_scale = ppmi_glass_transmitted_scale(bsdf, transport);
     sample->weight = vec3_scale(bsdf->tint, share * sample->eta_scale);
     cover(bsdf, albedo, local, sample);
     /* at a leaning shading normal the refracted ray may stay above the surface: absorbed */
@@ -574,14 +383,15 @@ static bool draw_smooth_glass(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
                               ppmi_bsdf_sample *sample)
 {
     float cos_t;
-    const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    const float reflectance = ppmi_glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
     const float share = bsdf->glass_weight / probability;
     if (u >= reflectance) {
         return transmit_at_glass(bsdf, albedo, transport, cos_t, share, sample);
     }
-    const ppmi_vec3 tone = ppmi_layers_have_film(bsdf)
-                               ? vec3_scale(film_reflectance(bsdf, bsdf->wo.z), 1.0f / reflectance)
-                               : vec3_splat(1.0f);
+    const ppmi_vec3 tone =
+        ppmi_layers_have_film(bsdf)
+            ? vec3_scale(ppmi_glass_film_reflectance(bsdf, bsdf->wo.z), 1.0f / reflectance)
+            : vec3_splat(1.0f);
     reflect_at_glass(bsdf, albedo, tone, share, sample);
     return true;
 }
@@ -591,9 +401,9 @@ static uint32_t glass_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *a
 {
     uint32_t count = 0;
     float cos_t;
-    const float reflectance = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    const float reflectance = ppmi_glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
     if (reflectance > 0.0f) {
-        const ppmi_vec3 tone = glass_tone(bsdf, bsdf->wo.z, reflectance);
+        const ppmi_vec3 tone = ppmi_glass_tone(bsdf, bsdf->wo.z, reflectance);
         reflect_at_glass(bsdf, albedo, tone, bsdf->glass_weight, &samples[count++]);
     }
     const float left = bsdf->glass_weight * (1.0f - reflectance);
@@ -620,31 +430,6 @@ uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
         count += glass_branches(bsdf, albedo, transport, &out_samples[count]);
     }
     return count;
-}
-
-/* A direction of the rough glass lobe, local. u_side decides between single scattering and the
- * rest, then between the sides. */
-static bool draw_rough_glass(const ppmi_bsdf *bsdf, float u_side, float u, float v, ppmi_vec3 *wi)
-{
-    if (u_side < bsdf->glass_lost) {
-        *wi = draw_glass_multiple(bsdf, u_side / bsdf->glass_lost, u, v);
-        return true;
-    }
-    u_side = (u_side - bsdf->glass_lost) / (1.0f - bsdf->glass_lost);
-    const ppmi_vec3 h = ppmi_ggx_sample_visible(bsdf->glass_alpha, bsdf->wo, u, v);
-    float cos_t;
-    const float reflectance = glass_reflectance(bsdf, vec3_dot(bsdf->wo, h), &cos_t);
-    if (u_side < reflectance) {
-        *wi = reflect_about(bsdf->wo, h);
-        return wi->z > 0.0f;
-    }
-    if (bsdf->is_thin) {
-        *wi = reflect_about(bsdf->wo, h);
-        wi->z = -wi->z;
-    } else {
-        *wi = vec3_normalize(refract_about(bsdf->wo, h, bsdf->eta, cos_t));
-    }
-    return wi->z < 0.0f;
 }
 
 static void draw_phase(const ppmi_bsdf *bsdf, float u, float v, ppmi_bsdf_sample *sample)
@@ -700,15 +485,15 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
     } else if (1u << lobe == PPMI_LOBE_WIDE) {
         wi = ppmi_sample_cosine_hemisphere(u, v);
     } else if (1u << lobe == PPMI_LOBE_SPEC) {
-        wi = reflect_about(bsdf->wo, ppmi_ggx_sample_visible(bsdf->alpha, bsdf->wo, u, v));
+        wi = ppmi_reflect_about(bsdf->wo, ppmi_ggx_sample_visible(bsdf->alpha, bsdf->wo, u, v));
         if (wi.z <= 0.0f) return false;
-    } else if (!draw_rough_glass(bsdf, u_lobe, u, v, &wi)) {
+    } else if (!ppmi_glass_lobe_draw(bsdf, u_lobe, u, v, &wi)) {
         return false;
     }
     out_sample->wi = vec3_normalize(ppmi_frame_to_world(&bsdf->frame, wi));
     out_sample->is_transmission = vec3_dot(out_sample->wi, bsdf->ng) < 0.0f;
     if (out_sample->is_transmission && 1u << lobe == PPMI_LOBE_GLASS) {
-        out_sample->eta_scale = transmitted_scale(bsdf, transport);
+        out_sample->eta_scale = ppmi_glass_transmitted_scale(bsdf, transport);
     }
     out_sample->pdf = ppmi_bsdf_pdf(bsdf, out_sample->wi, mask);
     if (!(out_sample->pdf > 0.0f)) return false;
@@ -744,8 +529,8 @@ static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
 static ppmi_vec3 glass_albedo(const ppmi_bsdf *bsdf)
 {
     float cos_t;
-    const float reflected = glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
-    const ppmi_vec3 tone = glass_tone(bsdf, bsdf->wo.z, reflected);
+    const float reflected = ppmi_glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
+    const ppmi_vec3 tone = ppmi_glass_tone(bsdf, bsdf->wo.z, reflected);
     const float share = bsdf->glass_weight * (bsdf->is_layered ? bsdf->layers.passing : 1.0f);
     return vec3_scale(vec3_mad(tone, bsdf->tint, 1.0f - reflected), share);
 }

@@ -97,4 +97,16 @@ static inline float ppmi_coat_fresnel(float cos_theta)
     return PPMI_COAT_F0 + (1.0f - PPMI_COAT_F0) * ppmi_schlick_weight(cos_theta);
 }
 
+/* Reflection at a facet. */
+static inline ppmi_vec3 ppmi_reflect_about(ppmi_vec3 wo, ppmi_vec3 h)
+{
+    return vec3_sub(vec3_scale(h, 2.0f * vec3_dot(wo, h)), wo);
+}
+
+/* Refraction at a facet; cos_t from Fresnel. */
+static inline ppmi_vec3 ppmi_refract_about(ppmi_vec3 wo, ppmi_vec3 h, float eta, float cos_t)
+{
+    return vec3_mad(vec3_scale(wo, -1.0f / eta), h, vec3_dot(wo, h) / eta - cos_t);
+}
+
 #endif
