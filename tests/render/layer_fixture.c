@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -56,6 +57,28 @@ ppm_instance_id layers_add_quad(ppm_scene *scene, const char *name, ppm_material
                                     .name = name,
                                     .mesh = shape_quad(scene, material, origin, edge_u, edge_v),
                                     .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    ppm_instance_id id = 0;
+    assert_int_equal(ppm_scene_add_instance(scene, &desc, &id), PPM_STATUS_OK);
+    return id;
+}
+
+void layers_at_place(ppmi_vec3 p, float columns[16])
+{
+    const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, p.x, p.y, p.z, 1};
+    memcpy(columns, identity, sizeof identity);
+}
+
+ppm_instance_id layers_add_moving_wall(ppm_scene *scene, ppmi_vec3 from, ppmi_vec3 to)
+{
+    float motion[32];
+    layers_at_place(from, motion);
+    layers_at_place(to, motion + 16);
+    const ppm_instance_desc desc = {.size = sizeof desc,
+                                    .mesh = shape_quad(scene, material_lambert(scene, 0.5f),
+                                                       vec3(-40, -40, 0), vec3(80, 0, 0),
+                                                       vec3(0, 80, 0)),
+                                    .motion_steps = 2,
+                                    .motion = motion};
     ppm_instance_id id = 0;
     assert_int_equal(ppm_scene_add_instance(scene, &desc, &id), PPM_STATUS_OK);
     return id;

@@ -22,4 +22,10 @@ ppm_render_options layers_options(uint32_t width, int32_t kind);
 ppm_instance_id layers_add_quad(ppm_scene *scene, const char *name, ppm_material_id material,
                                 ppmi_vec3 origin, ppmi_vec3 edge_u, ppmi_vec3 edge_v);
 
+/* The transform that moves to a place. */
+void layers_at_place(ppmi_vec3 place, float columns[16]);
+
+/* A wall of 80 m that faces +z and goes from one place to the other while the shutter is open. */
+ppm_instance_id layers_add_moving_wall(ppm_scene *scene, ppmi_vec3 from, ppmi_vec3 to);
+
 #endif

@@ -498,138 +498,6 @@ static void glass_shows_what_is_behind_it(void **state)
     ppm_render_destroy(render);
 }
 
-/* ---- motion ---------------------------------------------------------------------------------- */
-
-static void at_place(ppmi_vec3 p, float columns[16])
-{
-    const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, p.x, p.y, p.z, 1};
-    memcpy(columns, identity, sizeof identity);
-}
-
-/* A wall that moves from one place to the other while the shutter is open. */
-static void add_moving_wall(ppmi_vec3 from, ppmi_vec3 to)
-{
-    float motion[32];
-    at_place(from, motion);
-    at_place(to, motion + 16);
-    const ppm_instance_desc desc = {
-        .size = sizeof desc,
-        .mesh = shape_quad(test.scene, material_lambert(test.scene, 0.5f), vec3(-40, -40, 0),
-                           vec3(80, 0, 0), vec3(0, 80, 0)),
-        .motion_steps = 2,
-        .motion = motion};
-    ppm_instance_id id = 0;
-    add_sky();
-    assert_int_equal(ppm_scene_add_instance(test.scene, &desc, &id), PPM_STATUS_OK);
-}
-
-static float *motion_layer(float open, float close)
-{
-    ppm_render_options options = layers_options(WIDTH, PPM_LAYER_MOTION);
-    options.shutter_open = open;
-    options.shutter_close = close;
-    return layers_picture(test.scene, &options, 2, PPM_LAYER_MOTION);
-}
-
-/* Across the picture by 1 m to the right and 0.5 m up during 0.5 frames; a pixel is 0.25 m. Blender
- * 3.4 has these signs: a plane that moves by (1 m, 0.8 m) to a frame and by (1 m, 1.4 m) to the
- * next, at half a metre a pixel, has (-2, -1.6, -2, -2.8) there. */
-static void motion_is_pixels_a_frame_as_blender_has_it(void **state)
-{
-    (void)state;
-    add_moving_wall(vec3(0, 0, 0), vec3(1, 0.5f, 0));
-    camera_orthographic(test.scene, vec3(0, 0, 5), vec3_splat(0.0f), 1.0f);
-    float *values = motion_layer(-0.25f, 0.25f);
-    for (size_t i = 0; i < PIXELS; i++) {
-        const float *m = values + 4 * i;
-        assert_near(m[0], -8.0, 1e-4);
-        assert_near(m[1], -4.0, 1e-4);
-        assert_near(m[2], -8.0, 1e-4);
-        assert_near(m[3], -4.0, 1e-4);
-    }
-    free(values);
-}
-
-/* Towards the eye: places in the picture go outwards as 1 / depth. */
-static void motion_is_that_of_the_projection(void **state)
-{
-    (void)state;
-    add_moving_wall(vec3(0, 0, 0), vec3(0, 0, 2)); /* depth 6, 5, 4 */
-    camera_perspective(test.scene, vec3(0, 0, 6), vec3_splat(0.0f), 1.0f);
-    float *values = motion_layer(0.0f, 1.0f);
-    for (size_t i = 0; i < PIXELS; i++) {
-        const ppmi_vec2 centre = centre_of(i);
-        const double x = 0.5 * WIDTH * (double)centre.x, y = 0.5 * WIDTH * (double)centre.y;
-        const double back = 2.0 * (5.0 / 6.0 - 1.0), forth = 2.0 * (1.0 - 5.0 / 4.0);
-        assert_near(values[4 * i], back * x, 1e-4);
-        assert_near(values[4 * i + 1], back * y, 1e-4);
-        assert_near(values[4 * i + 2], forth * x, 1e-4);
-        assert_near(values[4 * i + 3], forth * y, 1e-4);
-    }
-    free(values);
-}
-
-static void a_moving_camera_moves_all_the_other_way(void **state)
-{
-    (void)state;
-    float motion[32];
-    at_place(vec3(0, 0, 5), motion);
-    at_place(vec3(0.5f, 0, 5), motion + 16);
-    add_wall();
-    const ppm_camera_desc desc = {.size = sizeof desc,
-                                  .kind = PPM_CAMERA_ORTHOGRAPHIC,
-                                  .half_width_m = 1.0f,
-                                  .half_height_m = 1.0f,
-                                  .motion_steps = 2,
-                                  .motion = motion};
-    ppm_camera_id id = 0;
-    assert_int_equal(ppm_scene_add_camera(test.scene, &desc, &id), PPM_STATUS_OK);
-    float *values = motion_layer(0.0f, 1.0f);
-    for (size_t i = 0; i < PIXELS; i++) {
-        assert_near(values[4 * i], 2.0, 1e-4);
-        assert_near(values[4 * i + 2], 2.0, 1e-4);
-        assert_near(values[4 * i + 1], 0.0, 1e-4);
-        assert_near(values[4 * i + 3], 0.0, 1e-4);
-    }
-    free(values);
-}
-
-static void moving_vertices_move_their_points(void **state)
-{
-    (void)state;
-    /* stretched along x to twice its width: points at x go to 2 x */
-    static const float positions[24] = {-8,  -8, 0, 8,  -8, 0, 8,  8, 0, -8,  8, 0,
-                                        -16, -8, 0, 16, -8, 0, 16, 8, 0, -16, 8, 0};
-    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    const ppm_primitive_desc primitive = {.vertex_count = 4,
-                                          .triangle_count = 2,
-                                          .positions = positions,
-                                          .indices = indices,
-                                          .material = material_lambert(test.scene, 0.5f),
-                                          .motion_steps = 2};
-    add_sky();
-    shape_place(test.scene, shape_mesh(test.scene, &primitive));
-    camera_orthographic(test.scene, vec3(0, 0, 5), vec3_splat(0.0f), 1.0f);
-    float *values = motion_layer(0.0f, 1.0f);
-    for (size_t i = 0; i < PIXELS; i++) {
-        const double x = 0.5 * WIDTH * (double)centre_of(i).x; /* in the middle, at 1.5 times */
-        assert_near(values[4 * i], 2.0 * (1.0 / 1.5 - 1.0) * x, 1e-4);
-        assert_near(values[4 * i + 2], 2.0 * (1.0 - 2.0 / 1.5) * x, 1e-4);
-    }
-    free(values);
-}
-
-static void with_the_shutter_closed_nothing_moves(void **state)
-{
-    (void)state;
-    add_moving_wall(vec3(0, 0, 0), vec3(1, 0.5f, 0));
-    camera_orthographic(test.scene, vec3(0, 0, 5), vec3_splat(0.0f), 1.0f);
-    float *values = motion_layer(0.0f, 0.0f);
-    for (size_t i = 0; i < 4 * PIXELS; i++)
-        assert_true(values[i] == 0.0f);
-    free(values);
-}
-
 /* ---- sessions -------------------------------------------------------------------------------- */
 
 /* Something for every layer to tell: edges, glass, a veil, a texture's worth of triangles, motion,
@@ -640,7 +508,8 @@ static void add_all_sorts(void)
     ppm_material_desc_init(&veil);
     veil.base_color[3] = 0.4f;
     veil.alpha_mode = PPM_ALPHA_BLEND;
-    add_moving_wall(vec3(0, 0, -4), vec3(0.5f, 0, -3));
+    add_sky();
+    layers_add_moving_wall(test.scene, vec3(0, 0, -4), vec3(0.5f, 0, -3));
     const ppm_material_id glass = material_glass(test.scene, 1.5f, 0.0f);
     shape_place_at(test.scene, shape_sphere(test.scene, glass, 0.8f, 8, true), vec3(0.5f, 0, 0));
     layers_add_quad(test.scene, "veil", material_add(test.scene, &veil), vec3(-1.2f, -0.7f, 1),
@@ -764,11 +633,6 @@ int main(void)
         WITH_SCENE(mirrors_show_themselves_or_what_is_in_them),
         WITH_SCENE(a_share_that_mirrors_is_followed_by_its_share),
         WITH_SCENE(glass_shows_what_is_behind_it),
-        WITH_SCENE(motion_is_pixels_a_frame_as_blender_has_it),
-        WITH_SCENE(motion_is_that_of_the_projection),
-        WITH_SCENE(a_moving_camera_moves_all_the_other_way),
-        WITH_SCENE(moving_vertices_move_their_points),
-        WITH_SCENE(with_the_shutter_closed_nothing_moves),
         WITH_SCENE(threads_do_not_matter),
         WITH_SCENE(a_crop_shows_what_the_whole_shows),
         WITH_SCENE(layers_do_not_change_the_picture),
