@@ -126,7 +126,7 @@ typedef struct ppm_render_options {
     uint32_t height;    /* pixels; default from width and the camera's aspect (16:9 if not said) */
     uint64_t photons_per_pass; /* default: the number of pixels, within 2^18 .. 2^22; SPPM sends
                                   fewer where aiming keeps as many of them */
-    uint32_t max_depth;        /* bounces of a path; default 32 */
+    uint32_t max_depth;        /* bounces of a path; default 4096: roulette ends paths before */
     float radius_m;            /* first gather radius; default: from each pixel's footprint */
     float alpha;               /* share of new photons that is kept, 0 < alpha <= 1; default 2/3 */
     uint64_t seed;             /* default 0 is a seed like any other */

@@ -141,7 +141,7 @@ static const option_row rows[] = {
      .help = "ppm: at so many surfaces an eye path follows both reflection\n"
              "and refraction; beyond, one is drawn (default: 4)"},
     {"max-depth", 0, OPTION_INTEGER, FIELD(max_depth), .least = 1, .most = 10000, .argument = "N",
-     .help = "bounces of a path (default: 32)"},
+     .help = "most bounces of a path (default: 4096, all that matter)"},
     {"seed", 0, OPTION_INTEGER, FIELD(seed), .most = INT64_MAX, .argument = "N",
      .help = "other random numbers (default: 0)"},
     {"threads", 0, OPTION_INTEGER, FIELD(threads), .least = 1, .most = 4096, .argument = "N",

@@ -8,6 +8,8 @@
  * lobe, through glass and off it. */
 #include "photon/eye.h"
 
+#include "transport/roulette.h"
+
 /* Paths are not ended by chance before this depth: chains of glass need them. */
 enum { ROULETTE_DEPTH = 6 };
 
@@ -332,7 +334,7 @@ static bool survives_roulette(ppmi_walker *walker, eye_branch *branch)
 {
     if (branch->depth < ROULETTE_DEPTH) return true;
     const float importance = vec3_max_component(branch->throughput) / branch->eta_scale;
-    const float survival = ppmi_min(1.0f, importance);
+    const float survival = ppmi_roulette_survival(importance, branch->depth, PPMI_ROULETTE_OF_EYE);
     if (ppmi_rng_float(&walker->rng) >= survival) return false;
     branch->throughput = vec3_scale(branch->throughput, 1.0f / survival);
     branch->light_throughput = vec3_scale(branch->light_throughput, 1.0f / survival);

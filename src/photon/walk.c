@@ -5,6 +5,8 @@
 #include <omp.h>
 #include <string.h>
 
+#include "transport/roulette.h"
+
 /* Photons are handed to threads by the chunk; a chunk's photons stay together, so that their order
  * can be restored. */
 enum { CHUNK = 512 };
@@ -29,10 +31,11 @@ static float shading_normal_factor(const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_vec
     return denominator > 1e-8f ? ppmi_min(numerator / denominator, 1e2f) : 1.0f;
 }
 
-/* One bounce; false when the photon ends. Roulette keeps the power of survivors at what it was
- * before the way here: absorption on the way counts too. history may be NULL. */
-static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
-                   float power_before, ppmi_ray *ray, ppmi_vec3 *power,
+/* One bounce, at vertex number depth; false when the photon ends. Roulette keeps the power of
+ * survivors at what it was before the way here: absorption on the way counts too. history may be
+ * NULL. */
+static bool bounce(ppmi_walker *walker, uint32_t depth, const ppmi_vertex *vertex,
+                   const ppmi_bsdf *bsdf, float power_before, ppmi_ray *ray, ppmi_vec3 *power,
                    ppmi_photon_history *history)
 {
     const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
@@ -46,7 +49,8 @@ static bool bounce(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bs
     if (!vertex->medium) {
         next = vec3_scale(next, shading_normal_factor(bsdf, vec3_neg(ray->direction), sample.wi));
     }
-    const float survival = ppmi_min(1.0f, vec3_max_component(next) / power_before);
+    const float survival = ppmi_roulette_survival(vec3_max_component(next) / power_before, depth,
+                                                  PPMI_ROULETTE_OF_PHOTONS);
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
     *power = vec3_scale(next, 1.0f / survival);
     *ray = ppmi_walk_leave(walker, vertex, &sample, power);
@@ -119,7 +123,7 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
                    arriving_power(walk->world->scene, &vertex, power), tag)) {
             return false;
         }
-        if (!bounce(walker, &vertex, &bsdf, power_before, &ray, &power,
+        if (!bounce(walker, depth, &vertex, &bsdf, power_before, &ray, &power,
                     walk->tags_photons ? &history : NULL)) {
             return true;
         }

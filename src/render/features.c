@@ -10,6 +10,9 @@
 #include "render/crypto_layer.h"
 #include "render/facts.h"
 
+/* Mirrors in mirrors are followed so far, and then described themselves. */
+enum { FOLLOWED_MOST = 64 };
+
 enum { CRYPTO_COUNT = PPM_LAYER_CRYPTO_ASSET - PPM_LAYER_CRYPTO_OBJECT + 1 };
 
 struct ppmi_features {
@@ -161,11 +164,13 @@ static appearance follow(const ppmi_job *job, ppmi_walker *walker, ppmi_vertex *
 {
     const appearance nothing = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     ppmi_vec3 throughput = vec3_splat(1.0f);
+    const uint32_t last =
+        job->options->max_depth < FOLLOWED_MOST ? job->options->max_depth : FOLLOWED_MOST;
     for (uint32_t depth = 1;; depth++) {
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(walker, vertex, ray.direction, &bsdf);
         const uint32_t narrow = (uint32_t)(bsdf.lobes & ~bsdf.gather_lobes);
-        if (!job->options->follows_specular || narrow == 0 || depth >= job->options->max_depth) {
+        if (!job->options->follows_specular || narrow == 0 || depth >= last) {
             appearance seen = describe(job, walker, vertex, &bsdf, ray.direction, PPMI_LOBE_ALL);
             seen.albedo = vec3_mul(seen.albedo, throughput);
             return seen;

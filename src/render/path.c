@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include "render/light_film.h"
+#include "transport/roulette.h"
 
 enum { ROULETTE_DEPTH = 4 };
 
@@ -57,7 +58,8 @@ static ppm_status path_create(const ppmi_job *job, void **out_state)
 static bool survives(ppmi_walker *walker, ppmi_vec3 *throughput, float eta_scale, uint32_t depth)
 {
     if (depth < ROULETTE_DEPTH) return true;
-    const float survival = ppmi_min(1.0f, vec3_max_component(*throughput) / eta_scale);
+    const float survival = ppmi_roulette_survival(vec3_max_component(*throughput) / eta_scale,
+                                                  depth, PPMI_ROULETTE_OF_EYE);
     if (ppmi_rng_float(&walker->rng) >= survival) return false;
     *throughput = vec3_scale(*throughput, 1.0f / survival);
     return true;

@@ -13,6 +13,9 @@
 #include "scene/mipmap.h"
 #include "transport/solid.h"
 
+/* Roulette ends paths long before; it is for mirrors without loss. */
+enum { DEFAULT_MAX_DEPTH = 4096 };
+
 struct ppm_render {
     ppm_context *context;
     ppm_scene *scene;
@@ -229,7 +232,7 @@ ppm_status ppm_render_options_resolve(const ppm_scene *scene, const ppm_render_o
         resolved.light_groups = PPM_LIGHT_GROUPS_GIVEN;
     }
     if (resolved.split_depth == 0) resolved.split_depth = 4;
-    if (resolved.max_depth == 0) resolved.max_depth = 32;
+    if (resolved.max_depth == 0) resolved.max_depth = DEFAULT_MAX_DEPTH;
     if (resolved.alpha == 0.0f) resolved.alpha = 2.0f / 3.0f;
     if (resolved.threads == 0) resolved.threads = (uint32_t)omp_get_num_procs();
     if (resolved.threads > 4096) resolved.threads = 4096;

@@ -57,6 +57,42 @@ static void a_closed_box_that_shines_has_twice_its_emission(void **state)
     family_check(&family);
 }
 
+/* Nothing but roulette ends the paths: with 32 bounces 3.9 of 5 would be there (emission 0.25 and
+ * albedo 0.95). */
+static void a_bright_room_has_all_its_bounces_by_default(void **state)
+{
+    (void)state;
+    const ppm_material_id wall = material_emitter(test.scene, 0.25f, 0.95f, false);
+    shape_place(test.scene, shape_box(test.scene, wall, vec3_splat(-1), vec3_splat(1), 1, true));
+    camera_perspective(test.scene, vec3(0.1f, 0.0f, 0.5f), vec3(0, 0, -1), 0.6f);
+    compare("bright", PPM_INTEGRATOR_PATH, 0, 0.0f, 5.0, 1e-5, 0.02);
+    compare("bright", PPM_INTEGRATOR_SPPM, 2000, 0.2f, 5.0, 1e-5, 0.02);
+    compare("bright, kept eye paths", PPM_INTEGRATOR_PPM, 2000, 0.2f, 5.0, 1e-5, 0.02);
+    family_check(&family);
+}
+
+/* Walls of albedo 1 around a lamp have no picture, but paths must end: after 187 vertices on
+ * average, and photons after 105. */
+static void a_room_without_loss_ends(void **state)
+{
+    (void)state;
+    const ppm_material_id wall = material_emitter(test.scene, 1.0f, 1.0f, false);
+    shape_place(test.scene, shape_box(test.scene, wall, vec3_splat(-1), vec3_splat(1), 1, true));
+    camera_perspective(test.scene, vec3(0.1f, 0.0f, 0.5f), vec3(0, 0, -1), 0.6f);
+    for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PPM; i++) {
+        ppm_render_options options = render_options(i, 16, 2000);
+        ppm_render *render = NULL;
+        assert_int_equal(ppm_render_create(test.scene, &options, &render), PPM_STATUS_OK);
+        assert_int_equal(ppm_render_advance(render), PPM_STATUS_OK);
+        ppm_render_stats stats = {.size = sizeof stats};
+        assert_int_equal(ppm_render_get_stats(render, &stats), PPM_STATUS_OK);
+        /* a ray and a shadow ray a vertex; pilots send photons too */
+        const uint64_t paths = stats.eye_paths + 3 * stats.photons_emitted;
+        assert_true(stats.rays < 3 * 187 * paths);
+        ppm_render_destroy(render);
+    }
+}
+
 static void the_box_is_the_same_memoryless_and_in_epochs(void **state)
 {
     (void)state;
@@ -189,6 +225,8 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(a_closed_box_that_shines_has_twice_its_emission),
+        WITH_SCENE(a_bright_room_has_all_its_bounces_by_default),
+        WITH_SCENE(a_room_without_loss_ends),
         WITH_SCENE(the_box_is_the_same_memoryless_and_in_epochs),
         WITH_SCENE(rough_glass_and_ceramic_are_not_brighter_than_the_sky),
         WITH_SCENE(a_ball_in_the_open_has_its_reflectance),

@@ -98,7 +98,7 @@ static void defaults_are_resolved(void **state)
     assert_int_equal(resolved.width, 1280);
     assert_int_equal(resolved.height, 720);
     assert_int_equal(resolved.photons_per_pass, 1280 * 720);
-    assert_int_equal(resolved.max_depth, 32);
+    assert_int_equal(resolved.max_depth, 4096);
     assert_int_equal(resolved.camera, 1);
     assert_near(resolved.alpha, 2.0 / 3.0, 1e-6);
     assert_true(resolved.threads >= 1);
