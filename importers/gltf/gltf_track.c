@@ -59,13 +59,22 @@ static void cubic(const float *from, const float *to, uint32_t width, double spa
     }
 }
 
-/* The last key that is not after a time; 0 when all are. */
+/* Keys are kept in single precision: that of frame N is at N / fps, rounded, and where a writer
+ * multiplied by a rounded 1 / fps, at a number beside it. A time that is no further from a key than
+ * two of its steps is the key's: half of the frames would else come before their own keys. */
+static double slack(double key_s)
+{
+    return ldexp(fabs(key_s), -22);
+}
+
+/* The last key that a time has reached; 0 when all are ahead. */
 static size_t find_key(const ppmi_gltf_track *track, double time_s)
 {
     size_t low = 0, high = track->key_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if ((double)track->times[middle] <= time_s) {
+        const double begin = (double)track->times[middle];
+        if (begin - slack(begin) <= time_s) {
             low = middle;
         } else {
             high = middle;
@@ -81,7 +90,7 @@ void ppmi_gltf_track_eval(const ppmi_gltf_track *track, double time_s, double *o
     const size_t stride = (size_t)width * (is_cubic ? 3 : 1), key = find_key(track, time_s);
     const float *from = track->values + key * stride, *to = from + stride;
     const double begin = (double)track->times[key];
-    const bool is_held = time_s <= begin || key + 1 == track->key_count;
+    const bool is_held = time_s <= begin + slack(begin) || key + 1 == track->key_count;
     if (is_held || track->interpolation == PPMI_GLTF_STEP) {
         for (uint32_t i = 0; i < width; ++i) {
             out[i] = (double)from[(is_cubic ? width : 0) + i];

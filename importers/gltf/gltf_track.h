@@ -29,7 +29,8 @@ ppm_status ppmi_gltf_track_read(ppmi_gltf_reader *reader, int32_t animation, int
                                 ppmi_gltf_track *out_track);
 void ppmi_gltf_track_deinit(ppm_context *context, ppmi_gltf_track *track);
 
-/* The values at a time; before the first key and after the last one, those of that key. */
+/* The values at a time; before the first key and after the last one, those of that key. A time that
+ * single precision does not tell from a key's is that of the key, to the bit. */
 void ppmi_gltf_track_eval(const ppmi_gltf_track *track, double time_s, double *out_values);
 
 #endif

@@ -256,7 +256,9 @@ void input_say_animations(const cli_input *input, cli_console *console, const cl
         return;
     }
     if (!options->frames.is_given) {
-        const double first = ceil(begin * options->fps), last = floor(end * options->fps);
+        const double slack = 1e-3; /* of a frame: keys are rounded to single precision */
+        const double first = ceil(begin * options->fps - slack) + 0.0; /* no -0 */
+        const double last = floor(end * options->fps + slack);
         console_message(console, PPM_LOG_INFO,
                         "%u animation%s not played: this is the file's static pose; --frame N or "
                         "--frames %.0f-%.0f (%g to %g s) plays %s",

@@ -116,6 +116,29 @@ static int store_shutter(const option_table *table, const option_row *row, const
     return EXIT_DONE;
 }
 
+/* A rate: of film and video also as the fraction that it is, since 23.976 is not 24000/1001. */
+static int store_rate(const option_table *table, const option_row *row, const char *text,
+                      double *field)
+{
+    enum { LETTERS_MAX = 64 };
+    const char *const slash = strchr(text, '/');
+    char above[LETTERS_MAX];
+    double value = 0.0, below = 1.0;
+    if (!slash) return option_store_real(table, row, text, field);
+    const size_t length = (size_t)(slash - text);
+    if (length < sizeof above) {
+        memcpy(above, text, length);
+        above[length] = '\0';
+    }
+    if (length >= sizeof above || !value_parse_real(above, &value) ||
+        !value_parse_real(slash + 1, &below) || !(below > 0.0) || !(value / below >= row->low) ||
+        value / below > row->high) {
+        return option_complain(table, row, text, "a rate like 24, 23.976 or 24000/1001");
+    }
+    *field = value / below;
+    return EXIT_DONE;
+}
+
 /* Pixels are whole numbers; shares of the picture all have a decimal point. */
 static int store_crop(const option_table *table, const option_row *row, const char *text,
                       crop_window *field)
@@ -239,6 +262,8 @@ int option_store_own(const option_table *table, const option_row *row, const cha
         return store_background(table, row, text, field);
     case VALUE_SHUTTER:
         return store_shutter(table, row, text, field);
+    case VALUE_RATE:
+        return store_rate(table, row, text, field);
     case VALUE_CROP:
         return store_crop(table, row, text, field);
     case VALUE_FILTER:

@@ -12,6 +12,7 @@ enum {
     VALUE_FOG,                 /* fog_values */
     VALUE_SPLIT,               /* int32_t: a number, 0 stored as -1 */
     VALUE_SHUTTER,             /* shutter_times */
+    VALUE_RATE,                /* double, also as a fraction; low and high */
     VALUE_CROP,                /* crop_window */
     VALUE_FILTER,              /* filter_choice, from a list of names; low and high of the width */
     VALUE_FRAME,               /* frame_choice: one */

@@ -77,6 +77,8 @@ static void bad_values_name_option_and_value(void **state)
     assert_refused("--frames all moving.gltf", "--frames: 'all'");
     assert_refused("--frames 0-9999999 moving.gltf", "at most a million");
     assert_refused("--frame 1 --fps 0 moving.gltf", "--fps: '0' is not a number from 0.001");
+    assert_refused("--frame 1 --fps 24/0 moving.gltf", "--fps: '24/0' is not a rate like 24");
+    assert_refused("--frame 1 --fps 1/2/3 moving.gltf", "--fps: '1/2/3' is not a rate like 24");
     assert_refused("--frame 1 --shutter 0,1 --motion-steps 1 moving.gltf",
                    "--motion-steps: '1' is not a whole number from 2 to 129");
 }
@@ -220,7 +222,10 @@ static void the_header_says_which_frame_it_is(void **state)
     assert_header_holds("frame.exr", time, sizeof time - 1);
     assert_header_holds("frame.exr", rate, sizeof rate - 1);
     run_well(QUICK "-o still.exr moving.gltf");
-    assert_there((const char *const[]){"frame.exr", "still.exr", NULL});
+    static const char film[] = "framesPerSecond\0rational\0\10\0\0\0\xc0\x5d\0\0\xe9\3\0\0";
+    run_well(QUICK "--frame 1 --fps 24000/1001 -o film.exr moving.gltf");
+    assert_header_holds("film.exr", film, sizeof film - 1);
+    assert_there((const char *const[]){"film.exr", "frame.exr", "still.exr", NULL});
 }
 
 static void pictures_carry_what_the_file_says_about_itself(void **state)

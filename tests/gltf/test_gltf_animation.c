@@ -377,6 +377,74 @@ static void a_straight_way_has_two_steps_and_rest_has_none(void **state)
     ppmi_gltf_asset_close(asset);
 }
 
+/* ---- whole frames ---------------------------------------------------------------------------- */
+
+enum { FRAME_KEYS = 40 };
+
+/* Key k has the value k at frame first + k, as writers round its time: once, or as a product of
+ * rounded numbers. */
+static void assert_frames_have_their_keys(gltf_fixture *f, const char *interpolation, double fps,
+                                          int first, bool is_product)
+{
+    float times[FRAME_KEYS], values[FRAME_KEYS * 9] = {0};
+    const bool is_cubic = strcmp(interpolation, "CUBICSPLINE") == 0;
+    ppmi_gltf_asset *asset;
+    for (int k = 0; k < FRAME_KEYS; ++k) {
+        times[k] =
+            is_product ? (float)(first + k) * (float)(1.0 / fps) : (float)((first + k) / fps);
+        values[is_cubic ? 9 * k + 3 : 3 * k] = (float)k;
+    }
+    const gltf_keys keys = {interpolation,
+                            "VEC3",
+                            times,
+                            FRAME_KEYS,
+                            values,
+                            is_cubic ? 3 * FRAME_KEYS : FRAME_KEYS,
+                            3};
+    assert_gltf_status(f, gltf_open_channel(f, &keys, "translation", "", &asset), PPM_STATUS_OK);
+    for (int k = 0; k < FRAME_KEYS; ++k) {
+        pose(asset, (first + k) / fps);
+        const float x = put(f, 0, 0, 0).x;
+        if (x != (float)k) {
+            fail_msg("%s at %g fps: frame %d is at %.9g, key at %d", interpolation, fps, first + k,
+                     (double)x, k);
+        }
+    }
+    ppmi_gltf_asset_close(asset);
+    gltf_reset(f);
+}
+
+static void a_frame_on_a_key_has_its_value_to_the_bit(void **state)
+{
+    static const double rates[] = {23.976, 24000.0 / 1001.0,
+                                   24.0,   25.0,
+                                   29.97,  30000.0 / 1001.0,
+                                   30.0,   48.0,
+                                   59.94,  60.0,
+                                   100.0,  120.0};
+    static const char *const interpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    for (size_t i = 0; i < sizeof rates / sizeof rates[0]; ++i) {
+        for (size_t k = 0; k < 3; ++k) {
+            assert_frames_have_their_keys(*state, interpolations[k], rates[i], 0, false);
+            assert_frames_have_their_keys(*state, interpolations[k], rates[i], 1001, k == 1);
+        }
+        assert_frames_have_their_keys(*state, "STEP", rates[i], 100000, i % 2 == 1);
+    }
+}
+
+static void half_a_frame_before_its_key_a_step_has_not_come(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float times[2] = {0, (float)(23 / 24.0)}, values[6] = {0, 0, 0, 4, 0, 0};
+    static const gltf_keys keys = {"STEP", "VEC3", times, 2, values, 2, 3};
+    ppmi_gltf_asset *asset;
+    assert_gltf_status(f, gltf_open_channel(f, &keys, "translation", "", &asset), PPM_STATUS_OK);
+    assert_x(f, asset, 22.5 / 24.0, 0.0);
+    assert_x(f, asset, 22.999 / 24.0, 0.0);
+    assert_x(f, asset, 23.0 / 24.0, 4.0);
+    ppmi_gltf_asset_close(asset);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
@@ -389,6 +457,8 @@ int main(void)
         TEST(linear_values_lie_between_keys_and_stay_outside_of_them),
         TEST(steps_hold_until_the_next_key),
         TEST(splines_follow_the_cubic_through_their_tangents),
+        TEST(a_frame_on_a_key_has_its_value_to_the_bit),
+        TEST(half_a_frame_before_its_key_a_step_has_not_come),
         TEST(rotations_turn_evenly_along_the_shorter_arc),
         TEST(splines_of_rotations_keep_unit_length),
         TEST(keys_at_the_same_time_are_a_jump),
