@@ -40,6 +40,7 @@ scene pool 720x480 256x171
 scene glass_of_water 512x512 256x256
 scene glass_table 640x480 256x192
 scene still_life 640x480 256x192
+scene beach 720x450 256x160
 scene enclosed_lamp 640x480 256x192
 scene prism 720x450 256x160
 scene mirrors 720x480 256x171 --max-depth 64
