@@ -20,12 +20,45 @@ typedef struct binder {
 
 /* ---- bindings -------------------------------------------------------------------------------- */
 
-static bool is_bound_already(const ppmi_gltf_animations *all, const double *values)
+/* Where the values are in the table, or the free place where they belong (linear probing). */
+static size_t *place_of(const ppmi_gltf_animations *all, const double *values)
 {
-    for (size_t i = 0; i < all->count; ++i) {
-        if (all->bindings[i].property.values == values) return true;
+    const uint64_t hash = (uint64_t)(uintptr_t)values * UINT64_C(0x9e3779b97f4a7c15);
+    size_t at = (size_t)(hash >> 32) & (all->place_count - 1);
+    while (all->places[at] != 0 && all->bindings[all->places[at] - 1].property.values != values) {
+        at = (at + 1) & (all->place_count - 1);
     }
-    return false;
+    return &all->places[at];
+}
+
+/* Room for one more, at most half full. */
+static bool grow_places(ppm_context *context, ppmi_gltf_animations *all)
+{
+    if (2 * (all->count + 1) <= all->place_count) return true;
+    const size_t more = all->place_count > 0 ? 2 * all->place_count : 64;
+    size_t *places = ppmi_alloc_zeroed(context, more, sizeof *places);
+    if (!places) return false;
+    ppmi_free(context, all->places);
+    all->places = places;
+    all->place_count = more;
+    for (size_t i = 0; i < all->count; ++i) {
+        size_t *place = place_of(all, all->bindings[i].property.values);
+        if (*place == 0) *place = i + 1;
+    }
+    return true;
+}
+
+/* Marks the element whose value a binding changes. */
+static bool mark(ppmi_gltf_reader *reader, const ppmi_gltf_property *property)
+{
+    bool **marks = &reader->animations->is_changed[property->list];
+    if (!*marks) {
+        const size_t count = reader->outline.lists[property->list].count;
+        *marks = ppmi_alloc_zeroed(reader->context, count + 1, sizeof **marks);
+    }
+    if (!*marks) return false;
+    (*marks)[property->index] = true;
+    return true;
 }
 
 /* A node that is given as a matrix gets the parts that can move. They hold as long as it is
@@ -52,11 +85,15 @@ static ppm_status add_binding(binder *b, const ppmi_gltf_property *property, int
                                            .is_flag = property->is_flag};
     ppmi_gltf_binding *items =
         ppmi_gltf_grow(reader->context, all->bindings, all->count, &all->capacity, sizeof *items);
-    if (!items) return ppmi_gltf_out_of_memory(reader, b->place);
-    all->bindings = items;
-    if (is_bound_already(all, property->values)) b->repeated++;
+    if (items) all->bindings = items;
+    if (!items || !grow_places(reader->context, all) || !mark(reader, property)) {
+        return ppmi_gltf_out_of_memory(reader, b->place);
+    }
+    size_t *place = place_of(all, property->values);
     ppmi_gltf_binding *binding = &items[all->count++];
     *binding = (ppmi_gltf_binding){.property = *property};
+    if (*place != 0) b->repeated++;
+    if (*place == 0) *place = all->count;
     if (property->list == PPMI_GLTF_NODES) prepare_node(reader, binding);
     if (property->texture) binding->has_no_transform = !property->texture->has_transform;
     binding->rest = ppmi_alloc(reader->context, property->count, sizeof *binding->rest);
@@ -78,15 +115,40 @@ static void ignore(binder *b, const char *why, const char *name)
                    b->ignored == MAX_IGNORED ? " (further ones are not listed)" : "");
 }
 
+/* Chains the nodes of each mesh, in their order. */
+static bool find_users(ppmi_gltf_reader *reader)
+{
+    const ppmi_gltf_document *d = reader->document;
+    ppmi_gltf_animations *all = reader->animations;
+    if (all->first_user) return true;
+    all->next_user = ppmi_alloc(reader->context, d->node_count + 1, sizeof *all->next_user);
+    if (!all->next_user) return false;
+    all->first_user = ppmi_alloc(reader->context, d->mesh_count + 1, sizeof *all->first_user);
+    if (!all->first_user) return false;
+    for (size_t i = 0; i < d->mesh_count; ++i) {
+        all->first_user[i] = -1;
+    }
+    for (size_t i = d->node_count; i > 0; --i) {
+        const int32_t mesh = d->nodes[i - 1].mesh;
+        if (mesh < 0 || (size_t)mesh >= d->mesh_count) continue;
+        all->next_user[i - 1] = all->first_user[mesh];
+        all->first_user[mesh] = (int32_t)(i - 1);
+    }
+    return true;
+}
+
 /* The weights of a mesh are those of every node that uses it and has none of its own. */
 static ppm_status bind_mesh_weights(binder *b, int32_t mesh, int32_t sampler)
 {
     const ppmi_gltf_document *d = b->reader->document;
+    const ppmi_gltf_animations *all = b->reader->animations;
     ppm_status status = PPM_STATUS_OK;
-    for (size_t i = 0; i < d->node_count && status == PPM_STATUS_OK; ++i) {
+    if (!find_users(b->reader)) return ppmi_gltf_out_of_memory(b->reader, b->place);
+    for (int32_t i = all->first_user[mesh]; i >= 0 && status == PPM_STATUS_OK;
+         i = all->next_user[i]) {
         ppmi_gltf_property property;
-        if (d->nodes[i].mesh != mesh || d->nodes[i].weight_count > 0) continue;
-        if (!ppmi_gltf_node_property(b->reader, (int32_t)i, "weights", &property)) continue;
+        if (d->nodes[i].weight_count > 0) continue;
+        if (!ppmi_gltf_node_property(b->reader, i, "weights", &property)) continue;
         status = add_binding(b, &property, sampler);
     }
     return status;
@@ -171,6 +233,17 @@ ppm_status ppmi_gltf_animations_check_name(ppmi_gltf_reader *reader)
     return choose(reader, &index);
 }
 
+/* What only the making of bindings needs. */
+static void forget_tables(ppm_context *context, ppmi_gltf_animations *animations)
+{
+    ppmi_free(context, animations->places);
+    ppmi_free(context, animations->first_user);
+    ppmi_free(context, animations->next_user);
+    animations->places = NULL;
+    animations->place_count = 0;
+    animations->first_user = animations->next_user = NULL;
+}
+
 /* Forgets all bindings. */
 static void clear(ppm_context *context, ppmi_gltf_animations *animations)
 {
@@ -179,6 +252,10 @@ static void clear(ppm_context *context, ppmi_gltf_animations *animations)
         ppmi_free(context, animations->bindings[i].rest);
     }
     ppmi_free(context, animations->bindings);
+    for (int i = 0; i < PPMI_GLTF_LIST_COUNT; ++i) {
+        ppmi_free(context, animations->is_changed[i]);
+    }
+    forget_tables(context, animations);
     *animations = (ppmi_gltf_animations){0};
 }
 
@@ -190,6 +267,7 @@ ppm_status ppmi_gltf_animations_bind(ppmi_gltf_reader *reader)
     for (size_t i = 0; i < reader->document->animation_count && status == PPM_STATUS_OK; ++i) {
         if (chosen < 0 || (size_t)chosen == i) status = bind_animation(reader, (int32_t)i);
     }
+    forget_tables(reader->context, reader->animations);
     if (status != PPM_STATUS_OK) clear(reader->context, reader->animations);
     reader->animations->is_bound = status == PPM_STATUS_OK;
     return status;
@@ -226,11 +304,8 @@ void ppmi_gltf_animations_rest(ppmi_gltf_reader *reader)
 
 bool ppmi_gltf_animations_change(const ppmi_gltf_reader *reader, int32_t list, int32_t index)
 {
-    for (size_t i = 0; i < reader->animations->count; ++i) {
-        const ppmi_gltf_property *p = &reader->animations->bindings[i].property;
-        if (p->list == list && p->index == index) return true;
-    }
-    return false;
+    const bool *marks = reader->animations->is_changed[list];
+    return marks && index >= 0 && (size_t)index < reader->outline.lists[list].count && marks[index];
 }
 
 void ppmi_gltf_animations_deinit(ppm_context *context, ppmi_gltf_animations *animations)

@@ -18,6 +18,11 @@ typedef struct ppmi_gltf_animations {
     bool is_bound;
     size_t count, capacity;
     ppmi_gltf_binding *bindings;
+    bool *is_changed[PPMI_GLTF_LIST_COUNT]; /* per element of a list; NULL: none of it is */
+    /* while bindings are made: */
+    size_t *places; /* of the values that are bound, hashed: index of a binding + 1; 0: free */
+    size_t place_count;
+    int32_t *first_user, *next_user; /* of a mesh, and of its mesh after a node: a node, or -1 */
 } ppmi_gltf_animations;
 
 /* Whether options->animation, if there is one, is in the file: OK, or INVALID_ARGUMENT with what
