@@ -14,11 +14,14 @@ enum { CANDIDATES = 64 };
 
 static const float disk_kernel = 2.0f, ball_kernel = 2.5f;
 
-/* Photons arrive by the geometric normal's cosine, the BSDF means the shading normal's. */
-static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+/* Photons arrive by the cosine of the facet that they land on, the BSDF means the shading normal's
+ * (Veach 1997, section 5.3.2). It is the photon's own facet: on a coarse mesh that of the point
+ * tells neither how many came there nor whether any could. Below the least cosine directions are
+ * too few to matter: they hold 1e-8 of a diffuse surface's light. */
+static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 ng)
 {
-    const float geometric = fabsf(vec3_dot(wi, bsdf->ng));
-    return geometric > 1e-4f ? ppmi_min(fabsf(ppmi_bsdf_cosine(bsdf, wi)) / geometric, 1e2f) : 0.0f;
+    const float least = 1e-4f;
+    return fabsf(ppmi_bsdf_cosine(bsdf, wi)) / ppmi_max(fabsf(vec3_dot(wi, ng)), least);
 }
 
 /* Whether a photon's normal says that it lies on the point's surface: on the same side of it, or
@@ -35,13 +38,14 @@ static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
                        const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered,
                        ppmi_vec3 *out_contribution)
 {
-    const bool is_phase = ppmi_bsdf_is_phase(bsdf);
-    if (!is_phase) {
-        if (!is_on_surface(bsdf, photon->ng)) return false;
-        kernel *= cosine_ratio(bsdf, photon->wi);
+    ppmi_vec3 ng = photon->ng;
+    if (!ppmi_bsdf_is_phase(bsdf)) {
+        if (!is_on_surface(bsdf, ng)) return false;
+        if (vec3_dot(ng, bsdf->ng) < 0.0f) ng = vec3_neg(ng);
+        kernel *= cosine_ratio(bsdf, photon->wi, ng);
     }
-    const ppmi_vec3 f =
-        ppmi_bsdf_eval(bsdf, albedo, photon->wi, bsdf->gather_lobes, PPMI_TRANSPORT_RADIANCE);
+    const ppmi_vec3 f = ppmi_bsdf_eval_from(bsdf, albedo, photon->wi, ng, bsdf->gather_lobes,
+                                            PPMI_TRANSPORT_RADIANCE);
     const ppmi_vec3 contribution = vec3_scale(vec3_mul(f, photon->power), kernel);
     if (vec3_is_black(contribution)) return false;
     *out_contribution = contribution;

@@ -217,49 +217,63 @@ static float spec_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 }
 
 /* Both normals must agree on which side wi is: light does not leak through the surface where the
- * shading normal leans over. */
-static bool sides_agree(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float local_z)
+ * shading normal leans over. side: wi's cosine to the geometric normal. */
+static bool sides_agree(float side, float local_z)
 {
-    return local_z * vec3_dot(wi, bsdf->ng) > 0.0f;
+    return local_z * side > 0.0f;
 }
 
 /* The coat reflects about a normal of its own: it alone may reach below the base's horizon. */
 __attribute__((noinline)) static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf,
-                                                        const ppmi_albedo_table *albedo,
-                                                        ppmi_vec3 wi_world, ppmi_vec3 wi,
-                                                        uint32_t mask, ppmi_transport transport)
+                                                        const ppmi_albedo_table *albedo, float side,
+                                                        ppmi_vec3 wi, uint32_t mask,
+                                                        ppmi_transport transport)
 {
     ppmi_vec3 f = vec3_splat(0.0f);
-    if (sides_agree(bsdf, wi_world, wi.z)) {
+    if (sides_agree(side, wi.z)) {
         f = ppmi_layers_eval_base(bsdf, albedo, wi, mask);
         if (mask & PPMI_LOBE_GLASS) {
             f = vec3_mad(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport),
                          ppmi_layers_passing(bsdf, albedo, wi));
         }
     }
-    if (mask & PPMI_LOBE_COAT && vec3_dot(wi_world, bsdf->ng) > 0.0f) {
+    if (mask & PPMI_LOBE_COAT && side > 0.0f) {
         f = vec3_add(f, ppmi_layers_eval_coat(bsdf, wi, transport));
     }
     return f;
 }
 
-ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi_world,
-                         uint32_t mask, ppmi_transport transport)
+static inline ppmi_vec3 eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                             ppmi_vec3 wi_world, float side, uint32_t mask,
+                             ppmi_transport transport)
 {
     const ppmi_vec3 wi = ppmi_frame_to_local(&bsdf->frame, wi_world);
     if (mask & bsdf->lobes & PPMI_LOBE_PHASE) {
         return vec3_scale(bsdf->sigma_s, ppmi_phase(bsdf->asymmetry_g, wi.z));
     }
     mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
-    if (bsdf->is_layered) return layered_eval(bsdf, albedo, wi_world, wi, mask, transport);
+    if (bsdf->is_layered) return layered_eval(bsdf, albedo, side, wi, mask, transport);
     ppmi_vec3 f = vec3_splat(0.0f);
-    if (!sides_agree(bsdf, wi_world, wi.z)) return f;
+    if (!sides_agree(side, wi.z)) return f;
     if (wi.z > 0.0f) {
         if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
         if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
     }
     if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport));
     return f;
+}
+
+ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi_world,
+                         uint32_t mask, ppmi_transport transport)
+{
+    return eval(bsdf, albedo, wi_world, vec3_dot(wi_world, bsdf->ng), mask, transport);
+}
+
+ppmi_vec3 ppmi_bsdf_eval_from(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                              ppmi_vec3 wi_world, ppmi_vec3 ng, uint32_t mask,
+                              ppmi_transport transport)
+{
+    return eval(bsdf, albedo, wi_world, vec3_dot(wi_world, ng), mask, transport);
 }
 
 float ppmi_bsdf_probability(const ppmi_bsdf *bsdf, uint32_t mask)
@@ -276,7 +290,7 @@ __attribute__((noinline)) static float layered_pdf(const ppmi_bsdf *bsdf, ppmi_v
                                                    ppmi_vec3 wi, uint32_t mask)
 {
     float pdf = 0.0f;
-    if (sides_agree(bsdf, wi_world, wi.z)) {
+    if (sides_agree(vec3_dot(wi_world, bsdf->ng), wi.z)) {
         pdf = ppmi_layers_pdf_base(bsdf, wi, mask);
         if (mask & PPMI_LOBE_GLASS)
             pdf += bsdf->lobe_probability[2] * ppmi_glass_lobe_pdf(bsdf, wi);
@@ -295,7 +309,7 @@ float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi_world, uint32_t mask)
     if (total <= 0.0f) return 0.0f;
     mask &= (uint32_t)(bsdf->lobes & ~bsdf->delta_lobes);
     if (bsdf->is_layered) return layered_pdf(bsdf, wi_world, wi, mask) / total;
-    if (!sides_agree(bsdf, wi_world, wi.z)) return 0.0f;
+    if (!sides_agree(vec3_dot(wi_world, bsdf->ng), wi.z)) return 0.0f;
     float pdf = 0.0f;
     if (wi.z > 0.0f) {
         if (mask & PPMI_LOBE_WIDE) pdf += bsdf->lobe_probability[0] * wi.z * PPMI_INV_PI;

@@ -132,6 +132,11 @@ void ppmi_bsdf_make_phase(const ppmi_medium *medium, ppmi_vec3 wo, ppmi_bsdf *ou
 ppmi_vec3 ppmi_bsdf_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
                          uint32_t mask, ppmi_transport transport);
 
+/* The same for light that arrived on a neighbouring facet of a smooth surface: that facet's
+ * geometric normal ng, on the side of bsdf->ng, says on which side wi is. */
+ppmi_vec3 ppmi_bsdf_eval_from(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi,
+                              ppmi_vec3 ng, uint32_t mask, ppmi_transport transport);
+
 /* Density by solid angle with which ppmi_bsdf_sample draws wi, given that it draws from mask: the
  * lobes' probabilities are normalised over the mask, delta lobes included. */
 float ppmi_bsdf_pdf(const ppmi_bsdf *bsdf, ppmi_vec3 wi, uint32_t mask);

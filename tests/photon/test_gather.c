@@ -211,6 +211,26 @@ static void shading_normals_weigh_by_the_ratio_of_cosines(void **state)
     assert_near(gather(&photon, 1, 1.0f).flux.x, 2.0 * 0.6 / M_PI * ratio, 1e-5);
 }
 
+/* A photon on a neighbouring facet of a smooth mesh came by that facet's cosine, and is above it.
+ */
+static void a_neighbouring_facet_weighs_by_its_own_cosine(void **state)
+{
+    (void)state;
+    const ppmi_material_point material = lambert(0.6f);
+    look_at(&material);
+    ppmi_photon photon = photon_at(0.0f, 0.0f, 0.0f);
+    photon.ng = vec3_normalize(vec3(0.5f, 0.0f, 1.0f));
+    photon.wi = vec3_normalize(vec3(1.0f, 0.0f, 0.2f));
+    const double ratio = (double)(photon.wi.z / vec3_dot(photon.wi, photon.ng));
+    assert_near(gather(&photon, 1, 1.0f).flux.x, 2.0 * 0.6 / M_PI * ratio, 1e-5);
+    /* the point's own facet faces away from the light, its shading normal does not */
+    ppmi_material_point leaning = lambert(0.6f);
+    leaning.ns = photon.ng;
+    look_at(&leaning);
+    photon.wi = vec3_normalize(vec3(1.0f, 0.0f, -0.1f));
+    assert_near(gather(&photon, 1, 1.0f).flux.x, 2.0 * 0.6 / M_PI, 1e-5);
+}
+
 /* An even density gives the irradiance without bias, whatever the radius. */
 static void an_even_density_gives_the_irradiance(void **state)
 {
@@ -326,6 +346,7 @@ int main(void)
         cmocka_unit_test(photons_that_the_bsdf_drops_do_not_count),
         cmocka_unit_test(only_gathering_lobes_count),
         cmocka_unit_test(shading_normals_weigh_by_the_ratio_of_cosines),
+        cmocka_unit_test(a_neighbouring_facet_weighs_by_its_own_cosine),
         cmocka_unit_test(an_even_density_gives_the_irradiance),
         cmocka_unit_test(in_a_medium_the_radius_bounds_the_ball),
         cmocka_unit_test(in_a_medium_a_photon_brings_power_times_phase),
