@@ -98,6 +98,14 @@ static void report_glass(const ppmi_gltf_reader *r)
              r->path, r->tally.solid_glass, r->tally.thin_glass, why);
 }
 
+static void report_turned(const ppmi_gltf_reader *r)
+{
+    if (r->tally.turned_meshes == 0) return;
+    ppmi_log(r->context, PPM_LOG_INFO,
+             "%s: %zu meshes of solid glass are closed and wound inside out: turned", r->path,
+             r->tally.turned_meshes);
+}
+
 static void report_count(const ppmi_gltf_reader *r, size_t count, const char *what)
 {
     if (count > 0) ppmi_log(r->context, PPM_LOG_WARNING, "%s: %zu %s", r->path, count, what);
@@ -108,6 +116,7 @@ static void report(const ppmi_gltf_reader *r)
     const ppmi_gltf_tally *tally = &r->tally;
     ppmi_gltf_report_lights(r);
     report_glass(r);
+    report_turned(r);
     report_count(r, tally->no_positions, "primitives without POSITION left out");
     report_count(r, tally->broken_counts, "triangle lists end in an incomplete triangle");
     if (tally->instances == 0) {

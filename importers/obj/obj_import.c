@@ -53,6 +53,11 @@ static void report(const ppmi_obj_reader *r)
         ppmi_log(r->context, PPM_LOG_INFO, "%s: %zu materials of solid glass", r->path,
                  tally->glass);
     }
+    if (tally->turned_meshes > 0) {
+        ppmi_log(r->context, PPM_LOG_INFO,
+                 "%s: %zu objects of solid glass are closed and wound inside out: turned", r->path,
+                 tally->turned_meshes);
+    }
     report_count(r, tally->reflections,
                  "reflection maps (refl) without effect: reflections are traced");
     report_count(r, tally->displaced,

@@ -63,7 +63,8 @@ typedef struct ppmi_obj_reach {
 /* What is counted and told once, at the end. */
 typedef struct ppmi_obj_tally {
     size_t free_forms, small_faces, short_lines, unknown, glass, displaced, reflections;
-    size_t flat_faces; /* without a normal */
+    size_t flat_faces;    /* without a normal */
+    size_t turned_meshes; /* solids wound inside out */
     size_t unknown_line;
     char unknown_word[32]; /* the first one */
 } ppmi_obj_tally;

@@ -268,11 +268,16 @@ typedef struct ppm_mesh_desc {
 } ppm_mesh_desc;
 
 /* Adds a mesh. Triangles with a position that is not finite, and those of no area, are dropped and
- * counted in a warning; normals that are not finite or zero are replaced by the face's.
- * Returns OK, INVALID_ARGUMENT (an index out of range, sizes that overflow), OUT_OF_MEMORY,
- * WRONG_STATE. The id is valid until ppm_scene_destroy; *out_id is untouched on failure. */
+ * counted in a warning; normals that are not finite or zero are replaced by the face's. What is
+ * closed, of a solid material (PPM_TRANSMISSION_SOLID) and wound inside out is turned, with all
+ * that is inside of it; open surfaces are not: their outside is where the winding says. Returns OK,
+ * INVALID_ARGUMENT (an index out of range, sizes that overflow), OUT_OF_MEMORY, WRONG_STATE. The id
+ * is valid until ppm_scene_destroy; *out_id is untouched on failure. */
 PPM_API ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc,
                                       ppm_mesh_id *out_id);
+
+/* How many triangles of a mesh were turned as wound inside out; 0 for an unknown id too. */
+PPM_API uint32_t ppm_scene_mesh_turned_count(const ppm_scene *scene, ppm_mesh_id id);
 
 typedef struct ppm_instance_desc {
     uint32_t size;    /* sizeof(ppm_instance_desc) */

@@ -11,6 +11,7 @@
 #include "render/integrator.h"
 #include "render/layer_list.h"
 #include "scene/mipmap.h"
+#include "scene/orient.h"
 #include "transport/solid.h"
 
 /* Roulette ends paths long before; it is for mirrors without loss. */
@@ -458,6 +459,7 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
                          "there is nothing to render: the scene has no triangles, points or lines");
     }
     ppm_status status = complete_scene(scene, options);
+    if (status == PPM_STATUS_OK && !scene->is_frozen) status = ppmi_scene_orient(scene);
     if (status != PPM_STATUS_OK) return status;
     ppmi_scene_freeze(scene);
     ppm_render_options resolved;

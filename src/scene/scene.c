@@ -357,6 +357,10 @@ ppm_status ppm_scene_set_material(ppm_scene *scene, ppm_material_id id,
     ppmi_material *last = &scene->materials[--scene->material_count];
     ppmi_free(scene->context, last->name);
     last->name = scene->materials[id - 1].name;
+    if (last->is_solid_glass && !scene->materials[id - 1].is_solid_glass) {
+        for (uint32_t i = 0; i < scene->mesh_count; i++)
+            scene->meshes[i].oriented_version = 0;
+    }
     scene->materials[id - 1] = *last;
     return PPM_STATUS_OK;
 }

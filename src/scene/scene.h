@@ -82,6 +82,8 @@ typedef struct ppmi_mesh {
     ppmi_vec3 bounds_min, bounds_max; /* object space, of the used vertices at all steps */
     uint64_t shape_version;           /* rises with every change of the vertices */
     uint64_t topology_version; /* rises where such a change is more than a move of vertices */
+    uint64_t oriented_version; /* the shape_version that scene/orient.h has looked at; 0: none */
+    uint32_t turned_count;     /* triangles of solids that it has turned */
 } ppmi_mesh;
 
 /* Motion: transforms holds motion_steps transforms as they are kept, and behind them the same as
