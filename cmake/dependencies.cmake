@@ -2,6 +2,15 @@
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS C)
 
+# For packages that call only the same minor version compatible, and so refuse a newer one
+# (tinygltf: Debian 12 has 2.7, Debian 13 2.9; meshoptimizer: 0.18 and 0.22).
+macro(ppm_find_at_least name version)
+    find_package(${name} REQUIRED CONFIG)
+    if(${name}_VERSION VERSION_LESS ${version})
+        message(FATAL_ERROR "${name} ${${name}_VERSION} is too old: ${version} is needed")
+    endif()
+endmacro()
+
 # Embree 4 where it is to be had, else 3.13.
 find_package(embree 4 QUIET CONFIG)
 if(NOT embree_FOUND)
@@ -30,7 +39,7 @@ else()
     set(PPM_OCIO_TARGET PkgConfig::OCIO)
 endif()
 
-find_package(TinyGLTF 2.7 REQUIRED CONFIG)
+ppm_find_at_least(TinyGLTF 2.7)
 if(TARGET TinyGLTF::TinyGLTF)
     set(PPM_TINYGLTF_TARGET TinyGLTF::TinyGLTF) # Debian: a shared library
 else()
@@ -45,7 +54,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 
 # Compressed geometry of glTF. Draco may be left out.
-find_package(meshoptimizer 0.18 REQUIRED CONFIG)
+ppm_find_at_least(meshoptimizer 0.18)
 if(PPM_WITH_DRACO)
     find_package(draco QUIET CONFIG)
     if(NOT TARGET draco::draco)
