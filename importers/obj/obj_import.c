@@ -41,6 +41,10 @@ static void report(const ppmi_obj_reader *r)
     report_count(r, tally->free_forms, "free-form curves and surfaces left out");
     report_count(r, tally->small_faces, "faces of fewer than three corners left out");
     report_count(r, tally->short_lines, "lines and points of too few vertices left out");
+    report_count(r, tally->no_number_uvs,
+                 "texture vertices that are not finite numbers: taken as 0 0");
+    report_count(r, tally->no_number_normals,
+                 "vertex normals that are not finite numbers: faces have their own there");
     report_count(r, r->polygons.forced,
                  "polygons that cross themselves or are too involved: split as well as possible");
     if (tally->unknown > 0) {
@@ -98,11 +102,13 @@ static void deinit(ppmi_obj_reader *r)
                                       &r->element,   &r->object_lengths};
     ppmi_obj_names *const names[] = {
         &r->objects,           &r->used_materials,    &r->library_names, &r->libraries,
-        &r->library_materials, &r->missing_materials, &r->ignored,       &r->images};
+        &r->library_materials, &r->missing_materials, &r->ignored,       &r->images,
+        &r->commented};
     for (size_t i = 0; i < r->materials.count; ++i) {
         ppmi_obj_material_deinit(r->context, (ppmi_obj_material *)r->materials.items + i);
     }
     ppmi_obj_array_deinit(r->context, &r->materials);
+    ppmi_obj_array_deinit(r->context, &r->commented_ids);
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {
         ppmi_obj_array_deinit(r->context, arrays[i]);
     }

@@ -1,9 +1,11 @@
 /* Material libraries (MTL): found beside the OBJ and cut into materials, each of which
  * tinyobjloader reads. What it would lose is seen to here: which statements there were, as the
  * default of a value is not the value. Maps are read by obj_map.c. */
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
+#include "obj/obj_number.h"
 #include "obj/obj_reader.h"
 
 /* ---- statements of a material ---------------------------------------------------------------- */
@@ -14,9 +16,11 @@ typedef struct library {
     ppmi_obj_lines lines;
     char *name; /* of the next material, as UTF-8; NULL: there is none */
     size_t name_line;
-    uint32_t given;                        /* by the statements of the current material */
-    uint32_t greys;                        /* those of them that are colours of one number */
-    size_t stray;                          /* statements before the first newmtl */
+    uint32_t given;            /* by the statements of the current material */
+    uint32_t greys;            /* those of them that are colours of one number */
+    size_t stray;              /* statements before the first newmtl */
+    size_t commas, comma_line; /* statements with decimal commas; the first one */
+    char comma_before[48], comma_after[48];
     ppmi_obj_map maps[PPMI_OBJ_MAP_COUNT]; /* of the current material */
     ppm_status status;                     /* the first failure */
 } library;
@@ -67,21 +71,36 @@ static void note_ignored(library *l, const char *word, size_t length)
     ppmi_free(r->context, text);
 }
 
-/* What a colour statement gives that the parser does not understand: one number is a grey (MTL,
- * "If only r is specified, then g, and b are assumed to be equal to r"); a spectrum's file or a
- * colour by CIE XYZ is no RGB, and is left out. False for the latter. */
-static bool check_color(library *l, uint32_t bit, const char *text, size_t length)
+/* Whether the first of up to count words is a number and none is what C writes for none. */
+static bool are_numbers(char *text, size_t length, int count)
+{
+    for (int i = 0; i < count && length > 0; ++i) {
+        char *rest = text;
+        const size_t word = ppmi_obj_take_word(&rest, &length);
+        const int kind = ppmi_obj_number_kind(text, word);
+        if (kind == PPMI_OBJ_NOT_FINITE || (i == 0 && kind != PPMI_OBJ_NUMBER)) return false;
+        if (kind != PPMI_OBJ_NUMBER) break;
+        text = rest;
+    }
+    return true;
+}
+
+/* Whether a statement's values are numbers, which the parser would read as 0. A colour of one
+ * number is a grey (MTL, "If only r is specified, then g, and b are assumed to be equal to r"); a
+ * spectrum's file or a colour by CIE XYZ is no RGB, and is left out. */
+static bool check_values(library *l, uint32_t bit, char *text, size_t length)
 {
     const uint32_t colors = PPMI_OBJ_HAS_KD | PPMI_OBJ_HAS_KS | PPMI_OBJ_HAS_KE | PPMI_OBJ_HAS_TF;
     float rgb[3];
+    if (bit == 0 || length == 0) return bit == 0 || !(bit & colors);
+    if (!are_numbers(text, length, bit & colors ? 3 : 1)) return false;
     if (!(bit & colors)) return true;
-    const size_t count = ppmi_obj_parse_floats(text, length, rgb, 3);
-    if (count == 1) {
+    if (ppmi_obj_parse_floats(text, length, rgb, 3) == 1) {
         l->greys |= bit;
     } else {
         l->greys &= ~bit;
     }
-    return count > 0;
+    return true;
 }
 
 static void spread_grey(uint32_t greys, uint32_t bit, float color[3])
@@ -105,12 +124,101 @@ static void begin_material(library *l, const char *text, size_t length)
     if (!l->name) set_status(l, ppmi_obj_out_of_memory(l->reader));
 }
 
-/* Takes in a statement; *out_text is what is left for the parser, NULL for nothing. */
-static void take_statement(library *l, char *text, size_t length, char **out_text)
+/* ---- values ---------------------------------------------------------------------------------- */
+
+static void note_comma(library *l, const char *before, const char *after)
 {
-    ppm_context *context = l->reader->context;
+    if (l->commas++ > 0) return;
+    l->comma_line = l->lines.number;
+    snprintf(l->comma_before, sizeof l->comma_before, "%s", before);
+    snprintf(l->comma_after, sizeof l->comma_after, "%s", after);
+}
+
+/* Brings the statement of a value, rest its words behind the first, to what the parser reads. */
+static void mend_values(library *l, uint32_t bit, const char *text, char *rest, size_t *length)
+{
+    const size_t comment = ppmi_obj_comment_of_numbers(rest, *length);
+    char before[48];
+    if (comment < *length) ppmi_obj_cut(rest, length, comment);
+    /* how opaque it is by the angle: the value alone is taken */
+    const bool has_halo = bit == PPMI_OBJ_HAS_D && *length > 6 && memcmp(rest, "-halo ", 6) == 0;
+    if (has_halo) {
+        note_ignored(l, text, (size_t)(rest + 5 - text));
+        memset(rest, ' ', 5);
+    }
+    snprintf(before, sizeof before, "%.*s", (int)(*length < 40 ? *length : 40), rest);
+    if (memchr(rest, ',', *length) && ppmi_obj_mend_commas(rest, *length)) {
+        char after[48];
+        snprintf(after, sizeof after, "%.*s", (int)(*length < 40 ? *length : 40), rest);
+        note_comma(l, before, after);
+    }
+}
+
+static void warn_of_commas(const library *l)
+{
+    if (l->commas == 0) return;
+    ppmi_log(l->reader->context, PPM_LOG_WARNING,
+             "%s: line %zu: '%s' is read as '%s': %zu statement%s with commas in numbers, which "
+             "MTL does not have",
+             l->lines.path, l->comma_line, l->comma_before, l->comma_after, l->commas,
+             l->commas == 1 ? "" : "s");
+}
+
+/* ---- maps ------------------------------------------------------------------------------------ */
+
+/* Whether there is the file that a map names. */
+static bool is_there(library *l, const ppmi_obj_map *map)
+{
+    char *path;
+    bool is_elsewhere;
+    if (!map->name) return false;
+    set_status(l, ppmi_obj_find_file(l->reader, l->lines.path, map->name, &path, &is_elsewhere));
+    ppmi_free(l->reader->context, path);
+    return path != NULL;
+}
+
+typedef bool (*read_map_fn)(ppm_context *, const char *, size_t, ppmi_obj_map *);
+
+/* Reads a map; whether there is its file. */
+static bool try_map(library *l, read_map_fn read, const char *text, size_t length,
+                    ppmi_obj_map *map)
+{
+    if (!read(l->reader->context, text, length, map)) {
+        set_status(l, ppmi_obj_out_of_memory(l->reader));
+    }
+    return is_there(l, map);
+}
+
+/* A name may hold blanks, '#' and '-': it is taken as it stands where there is such a file, else
+ * with options behind it, else the same without the last comment, and so on. */
+static void take_map(library *l, ppmi_obj_map *map, const char *text, size_t length)
+{
+    if (!ppmi_obj_map_read(l->reader->context, text, length, map)) {
+        set_status(l, ppmi_obj_out_of_memory(l->reader));
+    }
+    for (size_t end = length, next; l->status == PPM_STATUS_OK; end = next) {
+        if (!ppmi_obj_map_may_hold_more(map) || try_map(l, ppmi_obj_map_read, text, end, map) ||
+            try_map(l, ppmi_obj_map_read_behind, text, end, map)) {
+            break;
+        }
+        next = ppmi_obj_name_without_comment(text, end);
+        if (next == end) {
+            try_map(l, ppmi_obj_map_read, text, length, map); /* missing, as it stands */
+            break;
+        }
+        try_map(l, ppmi_obj_map_read, text, next, map);
+    }
+    map->line = l->lines.number;
+    if (map->has_comma) note_comma(l, "-o 0,5 and the like", "-o 0.5");
+}
+
+/* ---- statements ------------------------------------------------------------------------------ */
+
+/* Takes in a statement; *out_text is what is left for the parser, NULL for nothing. */
+static void take_statement(library *l, char *text, size_t *length, char **out_text)
+{
     char *rest = text, word[16] = {0};
-    size_t rest_length = length;
+    size_t rest_length = *length;
     const size_t word_length = ppmi_obj_take_word(&rest, &rest_length);
     memcpy(word, text, word_length < sizeof word ? word_length : sizeof word - 1);
     *out_text = NULL;
@@ -121,17 +229,21 @@ static void take_statement(library *l, char *text, size_t length, char **out_tex
     l->stray++;
     const int32_t map = ppmi_obj_map_find(word);
     if (map >= 0) {
-        if (!ppmi_obj_map_read(context, rest, rest_length, &l->maps[map])) {
-            set_status(l, ppmi_obj_out_of_memory(l->reader));
-        }
-        l->maps[map].line = l->lines.number;
+        take_map(l, &l->maps[map], rest, rest_length);
         return;
     }
-    if (!check_color(l, given_by(word), rest, rest_length)) {
-        note_ignored(l, text, length);
+    const uint32_t bit = given_by(word);
+    if (bit != 0) mend_values(l, bit, text, rest, &rest_length);
+    *length = (size_t)(rest - text) + rest_length;
+    while (rest_length > 0 && ppmi_obj_is_blank(*rest)) { /* where an option was */
+        ++rest;
+        --rest_length;
+    }
+    if (!check_values(l, bit, rest, rest_length)) {
+        note_ignored(l, text, *length);
         return;
     }
-    l->given |= given_by(word);
+    l->given |= bit;
     if (!is_understood(word)) note_ignored(l, text, word_length);
     *out_text = text;
 }
@@ -143,7 +255,7 @@ static char *next_of_material(void *user, size_t *out_length)
     while (l->status == PPM_STATUS_OK) {
         char *left, *text = ppmi_obj_lines_next(&l->lines, out_length);
         if (!text) return NULL;
-        take_statement(l, text, *out_length, &left);
+        take_statement(l, text, out_length, &left);
         if (left) return left;
         if (l->name) return NULL;
     }
@@ -157,7 +269,73 @@ static void forget_maps(library *l)
     }
 }
 
+/* ---- names with comments --------------------------------------------------------------------- */
+
+/* The length of a name without all of its comments. */
+static size_t shortest(const char *name, size_t length)
+{
+    for (size_t next; (next = ppmi_obj_name_without_comment(name, length)) < length;) {
+        length = next;
+    }
+    return length;
+}
+
+static bool find_commented(const ppmi_obj_reader *r, const char *name, uint32_t *out_index)
+{
+    uint32_t number;
+    if (!ppmi_obj_names_find(&r->commented, name, &number)) return false;
+    *out_index = ((const uint32_t *)r->commented_ids.items)[number];
+    return true;
+}
+
+bool ppmi_obj_find_material(const ppmi_obj_reader *r, const char *name, uint32_t *out_index)
+{
+    if (ppmi_obj_names_find(&r->library_materials, name, out_index)) return true;
+    if (find_commented(r, name, out_index)) return true;
+    char *copy = ppmi_string_copy(r->context, name);
+    size_t length = copy ? strlen(copy) : 0;
+    bool is_found = false;
+    for (size_t next; !is_found && length > 0; length = next) {
+        next = ppmi_obj_name_without_comment(copy, length);
+        if (next == length) break;
+        copy[next] = 0;
+        is_found = ppmi_obj_names_find(&r->library_materials, copy, out_index) ||
+                   find_commented(r, copy, out_index);
+    }
+    ppmi_free(r->context, copy);
+    return is_found;
+}
+
+size_t ppmi_obj_material_name_length(const ppmi_obj_reader *r, uint32_t index)
+{
+    const char *name = ppmi_obj_names_get(&r->library_materials, index);
+    const size_t all = strlen(name), length = ppmi_obj_plain_name_length(name, all);
+    char *plain = length > 0 && length < all ? ppmi_string_copy(r->context, name) : NULL;
+    if (!plain) return all;
+    uint32_t other;
+    plain[length] = 0;
+    const bool is_taken = ppmi_obj_names_find(&r->library_materials, plain, &other) ||
+                          (find_commented(r, plain, &other) && other != index);
+    ppmi_free(r->context, plain);
+    return is_taken ? all : length;
+}
+
 /* ---- a library ------------------------------------------------------------------------------- */
+
+/* Notes the name of a library's material without its comment, where it has one and no other has
+ * that name. False when memory is out. */
+static bool note_commented(ppmi_obj_reader *r, const char *name, uint32_t index)
+{
+    const size_t all = strlen(name), length = shortest(name, all);
+    if (length == all || length == 0) return true;
+    uint32_t number;
+    const uint32_t known = ppmi_obj_names_count(&r->commented);
+    if (!ppmi_obj_names_add(r->context, &r->commented, name, length, &number)) return false;
+    if (number < known) return true;
+    uint32_t *id = ppmi_obj_push(r->context, &r->commented_ids, 1, sizeof *id);
+    if (id) *id = index;
+    return id != NULL;
+}
 
 /* Keeps a material, unless one of its name was there before. */
 static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
@@ -175,7 +353,7 @@ static ppm_status keep_material(ppmi_obj_reader *r, const char *name,
         return PPM_STATUS_OK;
     }
     ppmi_obj_material *added = ppmi_obj_push(r->context, &r->materials, 1, sizeof *added);
-    if (!added) return ppmi_obj_out_of_memory(r);
+    if (!added || !note_commented(r, name, index)) return ppmi_obj_out_of_memory(r);
     *added = *material;
     *out_is_kept = true;
     return PPM_STATUS_OK;
@@ -243,6 +421,7 @@ static ppm_status read_library(ppmi_obj_reader *r, const char *path)
     }
     ppmi_free(r->context, l.name);
     forget_maps(&l);
+    warn_of_commas(&l);
     ppmi_obj_lines_close(&l.lines);
     return l.status;
 }
@@ -283,12 +462,13 @@ static void warn_of_missing(const ppmi_obj_reader *r, const char *name)
              r->path, name);
 }
 
-/* A name; if there is no such file, each of its words. */
+/* A name; if there is no such file, each of its words but those of a comment. */
 static ppm_status read_named(ppmi_obj_reader *r, char *name)
 {
     bool is_found, is_any = false;
     ppm_status status = try_library(r, name, &is_found);
-    if (is_found || status != PPM_STATUS_OK) return status;
+    if (is_found || status != PPM_STATUS_OK || *name == '#') return status;
+    name[shortest(name, strlen(name))] = 0;
     char *word = strchr(name, ' ') ? name : NULL;
     while (word && status == PPM_STATUS_OK) {
         char *end = strchr(word, ' ');
@@ -311,6 +491,7 @@ static ppm_status read_list(ppmi_obj_reader *r, char *names)
         const bool is_last = *end == 0;
         *end = 0;
         status = read_named(r, names);
+        if (*names == '#') break; /* a comment, but for a file of that name */
         names = end + !is_last;
         while (ppmi_obj_is_blank(*names)) {
             ++names;

@@ -39,6 +39,7 @@ typedef struct ppmi_obj_map {
     bool is_linear; /* -colorspace linear */
     bool is_sharp;  /* -blendu off -blendv off */
     bool has_turbulence;
+    bool has_comma; /* some number had a decimal comma */
 } ppmi_obj_map;
 
 /* The PPMI_OBJ_MAP_ of a statement, in any letter case; -1 for what is none. */
@@ -46,8 +47,14 @@ int32_t ppmi_obj_map_find(const char *word);
 /* The statement as it is written mostly: "map_Kd". */
 const char *ppmi_obj_map_word(int32_t map);
 
-/* Reads what follows the word; an earlier name of *map is freed. False when memory is out. */
+/* Reads what follows the word: options, then the name, which is what is left as it stands. An
+ * earlier name of *map is freed. False when memory is out. */
 bool ppmi_obj_map_read(ppm_context *context, const char *text, size_t length, ppmi_obj_map *map);
+/* The same, with options behind the name too: "tex.png -bm 1". */
+bool ppmi_obj_map_read_behind(ppm_context *context, const char *text, size_t length,
+                              ppmi_obj_map *map);
+/* Whether what is left may hold more than the name: an option or a comment. */
+bool ppmi_obj_map_may_hold_more(const ppmi_obj_map *map);
 void ppmi_obj_map_deinit(ppm_context *context, ppmi_obj_map *map);
 
 static inline bool ppmi_obj_map_is_named(const ppmi_obj_map *map)

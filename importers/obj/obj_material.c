@@ -260,6 +260,17 @@ static ppm_status add_material(ppmi_obj_reader *r, uint32_t index, const char *n
     return ppm_scene_add_material(r->scene, &c.desc, &material->id);
 }
 
+/* By its name in the library. */
+static ppm_status add_named(ppmi_obj_reader *r, uint32_t index)
+{
+    char *name = ppmi_string_copy(r->context, ppmi_obj_names_get(&r->library_materials, index));
+    if (!name) return ppmi_obj_out_of_memory(r);
+    name[ppmi_obj_material_name_length(r, index)] = 0;
+    const ppm_status status = add_material(r, index, name);
+    ppmi_free(r->context, name);
+    return status;
+}
+
 ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material_id *out_id,
                                  bool *out_needs_tangents)
 {
@@ -268,7 +279,7 @@ ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material
     const char *name = ppmi_obj_names_get(&r->used_materials, used);
     *out_id = 0;
     *out_needs_tangents = false;
-    if (!ppmi_obj_names_find(&r->library_materials, name, &index)) {
+    if (!ppmi_obj_find_material(r, name, &index)) {
         /* once for each name: the table of what is missing says whether it was told */
         const uint32_t told = ppmi_obj_names_count(&r->missing_materials);
         if (!ppmi_obj_names_add(r->context, &r->missing_materials, name, strlen(name), &index)) {
@@ -280,7 +291,7 @@ ppm_status ppmi_obj_use_material(ppmi_obj_reader *r, uint32_t used, ppm_material
         return PPM_STATUS_OK;
     }
     const ppmi_obj_material *material = (const ppmi_obj_material *)r->materials.items + index;
-    if (!material->is_added) status = add_material(r, index, name);
+    if (!material->is_added) status = add_named(r, index);
     *out_id = material->id;
     *out_needs_tangents = material->needs_tangents;
     return status;

@@ -340,19 +340,52 @@ static ppm_status emit_object(ppmi_obj_reader *r, const ppmi_obj_run *runs, size
     return status;
 }
 
-/* Colours beyond 1 are those of programs that write 0 .. 255. */
+/* What all vertex colours are like. */
+typedef struct color_facts {
+    float most;
+    bool are_whole;  /* numbers without a fraction */
+    size_t count;    /* of colours that are finite */
+    size_t far_over; /* those of them with a channel that is well beyond 1 */
+} color_facts;
+
+static color_facts look_at_colors(const ppmi_obj_reader *r)
+{
+    const float *colors = r->colors.items, well_beyond = 2.0f;
+    color_facts facts = {.are_whole = true};
+    for (size_t i = 0; i < r->colors.count; ++i) {
+        const float *c = colors + 3 * i;
+        const float most = fmaxf(c[0], fmaxf(c[1], c[2]));
+        if (!isfinite(c[0] + c[1] + c[2])) continue;
+        facts.count++;
+        facts.most = fmaxf(facts.most, most);
+        facts.far_over += most > well_beyond;
+        for (int k = 0; k < 3; ++k) {
+            facts.are_whole = facts.are_whole && c[k] == floorf(c[k]);
+        }
+    }
+    return facts;
+}
+
+/* Some programs write 0 .. 255. They are known by whole numbers, of which one is more than any
+ * light colour of 0 .. 1 that rounding or a bright pixel made, or by most of the colours being far
+ * beyond
+ * 1. Else what is beyond 1 is cut: nothing is so dark as a model whose 1.001 is read as of 255. */
 static void find_color_scale(ppmi_obj_reader *r)
 {
-    const float *colors = r->colors.items;
-    float most = 0.0f;
-    for (size_t i = 0; i < 3 * r->colors.count; ++i) {
-        most = fmaxf(most, colors[i]);
-    }
-    r->color_scale = most > 1.0f ? 1.0f / 255.0f : 1.0f;
-    if (most > 1.0f) {
+    const color_facts facts = look_at_colors(r);
+    const float least_byte = 8.0f, rounding = 1.0f + 0.5f / 255.0f;
+    const bool are_bytes = facts.are_whole
+                               ? facts.most >= least_byte
+                               : 2 * facts.far_over > facts.count && facts.most >= least_byte;
+    r->color_scale = are_bytes ? 1.0f / 255.0f : 1.0f;
+    if (are_bytes) {
         ppmi_log(r->context, PPM_LOG_WARNING,
                  "%s: vertex colours go up to %g: they are read as 0 .. 255", r->path,
-                 (double)most);
+                 (double)facts.most);
+    } else if (facts.most > rounding) {
+        ppmi_log(r->context, PPM_LOG_WARNING,
+                 "%s: vertex colours go up to %g: what is beyond 1 is cut", r->path,
+                 (double)facts.most);
     }
 }
 

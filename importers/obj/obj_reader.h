@@ -60,8 +60,20 @@ typedef struct ppmi_obj_reach {
     int32_t kind; /* PPM_PRIMITIVE_: what it is an index of */
 } ppmi_obj_reach;
 
+/* An index that can point to nothing, whatever comes behind it. */
+typedef struct ppmi_obj_fault {
+    size_t line;      /* 0: there is none */
+    const char *what; /* "an index of 0" */
+    int32_t kind;     /* PPM_PRIMITIVE_ */
+} ppmi_obj_fault;
+
+/* In place of an index that points to nothing. */
+enum { PPMI_OBJ_NOWHERE = -2 };
+
 /* What is counted and told once, at the end. */
 typedef struct ppmi_obj_tally {
+    size_t broken; /* elements that were not kept since an index is no number */
+    size_t no_number_uvs, no_number_normals; /* nan and the like */
     size_t free_forms, small_faces, short_lines, unknown, glass, displaced, reflections;
     size_t flat_faces;    /* without a normal */
     size_t turned_meshes; /* solids wound inside out */
@@ -93,6 +105,8 @@ struct ppmi_obj_reader {
     bool has_smoothing;       /* some face is in a group */
     float line_radius;        /* 0: not known yet */
     ppmi_obj_reach position_reach, uv_reach, normal_reach;
+    ppmi_obj_fault position_fault, uv_fault, normal_fault; /* the first of each kind */
+    bool is_broken_face; /* the statement that is being read has an index that is no number */
 
     char *object, *group; /* current names, or NULL */
     uint32_t smoothing, material;
@@ -105,6 +119,8 @@ struct ppmi_obj_reader {
 
     ppmi_obj_names libraries;         /* paths of the files that were read */
     ppmi_obj_names library_materials; /* names */
+    ppmi_obj_names commented;         /* those with a comment, without it */
+    ppmi_obj_array commented_ids;     /* uint32_t: which of library_materials each of these is */
     ppmi_obj_array materials;         /* ppmi_obj_material */
     ppmi_obj_names missing_materials; /* that usemtl names and no library has */
     ppmi_obj_names ignored;           /* statements of materials that have no effect here */
@@ -123,6 +139,13 @@ ppm_status ppmi_obj_out_of_memory(ppmi_obj_reader *reader);
 
 /* obj_statements.c: reads the file. Afterwards every index is in range. */
 ppm_status ppmi_obj_read_statements(ppmi_obj_reader *reader);
+
+/* obj_indices.c: leaves out the elements with a vertex that is not there, and takes from others the
+ * texture vertices and normals that are not there, with warnings. Returns OK; INPUT_INVALID when
+ * nothing is left or when the options are strict. */
+ppm_status ppmi_obj_settle_indices(ppmi_obj_reader *reader);
+/* "face", "line", "point". Static. */
+const char *ppmi_obj_kind_name(int32_t kind);
 
 /* obj_elements.c: the corners of an l or p statement, without its word, as written. False when
  * memory is out. */
@@ -154,6 +177,12 @@ void ppmi_obj_face_normal(const ppmi_obj_reader *reader, const ppmi_obj_corner *
 
 /* obj_library.c: reads the material libraries. What cannot be found is left out with a warning. */
 ppm_status ppmi_obj_read_libraries(ppmi_obj_reader *reader);
+
+/* The number of the library's material of a name: as it stands, else without comments behind one or
+ * the other. False when there is none. */
+bool ppmi_obj_find_material(const ppmi_obj_reader *reader, const char *name, uint32_t *out_index);
+/* Its name without a comment, where no other has that; length bytes of library_materials' name. */
+size_t ppmi_obj_material_name_length(const ppmi_obj_reader *reader, uint32_t index);
 
 void ppmi_obj_material_deinit(ppm_context *context, ppmi_obj_material *material);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "obj/obj_number.h"
 #include "obj/obj_reader.h"
 
 static void fail(ppmi_obj_reader *r, ppm_status status, const char *reason)
@@ -36,46 +37,61 @@ static float *push_floats(ppmi_obj_reader *r, ppmi_obj_array *array, size_t coun
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-static bool may_be_in_number(char c)
+/* A word that is not what it should be. */
+static void invalid_word(ppmi_obj_reader *r, const char *what, const char *word, size_t length)
 {
-    return (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '+' || c == 'e' || c == 'E';
+    if (r->status != PPM_STATUS_OK) return;
+    const bool has_comma = ppmi_obj_number_kind(word, length) == PPMI_OBJ_DECIMAL_COMMA;
+    r->status = ppmi_fail(r->context, PPM_STATUS_INPUT_INVALID,
+                          "%s: line %zu: %s is not a number: '%.*s'%s", r->path, r->lines.number,
+                          what, length < 40 ? (int)length : 40, word,
+                          has_comma ? "; a decimal comma? OBJ has points" : "");
 }
 
-/* NaN and infinity, which the parser reads as 0. */
-static bool is_not_finite(const char *word, size_t length)
+/* The next word of a statement; false at its end. */
+static bool next_word(const char **at, const char **out_word, size_t *out_length)
 {
-    const size_t sign = length > 1 && (word[0] == '-' || word[0] == '+');
-    return length > 0 && word[sign] != 0 && strchr("nNiI", word[sign]) != NULL;
-}
-
-/* Looks through the coordinates of a v statement, since the parser takes what it cannot read for 0.
- * Returns what follows the third, NULL after a failure. */
-static const char *check_coordinates(ppmi_obj_reader *r, float xyz[3])
-{
-    const char *at = r->text + 1;
-    for (int i = 0; i < 3; ++i) {
-        while (ppmi_obj_is_blank(*at)) {
-            ++at;
-        }
-        const char *word = at;
-        while (may_be_in_number(*at)) {
-            ++at;
-        }
-        if (*at == '\n' && at == word) {
-            invalid(r, "a vertex needs three coordinates");
-            return NULL;
-        }
-        if (ppmi_obj_is_blank(*at) || *at == '\n') continue;
-        while (!ppmi_obj_is_blank(*at) && *at != '\n') {
-            ++at;
-        }
-        if (!is_not_finite(word, (size_t)(at - word))) {
-            invalid(r, "a coordinate is not a number");
-            return NULL;
-        }
-        xyz[i] = NAN;
+    while (ppmi_obj_is_blank(**at)) {
+        ++*at;
     }
-    return at;
+    *out_word = *at;
+    while (**at != '\n' && !ppmi_obj_is_blank(**at)) {
+        ++*at;
+    }
+    *out_length = (size_t)(*at - *out_word);
+    return *out_length > 0;
+}
+
+/* Looks through up to count numbers at *at, which moves behind them, since the parser takes what it
+ * cannot read for 0: what is not finite becomes NaN. How many there are, -1 after a failure. */
+static int check_numbers(ppmi_obj_reader *r, const char *what, const char **at, float *values,
+                         int count)
+{
+    const char *word;
+    size_t length;
+    for (int i = 0; i < count; ++i) {
+        if (!next_word(at, &word, &length)) return i;
+        const int kind = ppmi_obj_number_kind(word, length);
+        if (kind == PPMI_OBJ_NOT_FINITE) {
+            values[i] = NAN;
+        } else if (kind != PPMI_OBJ_NUMBER) {
+            invalid_word(r, what, word, length);
+            return -1;
+        }
+    }
+    return count;
+}
+
+/* Whether a word is a number with a decimal comma. */
+static bool has_comma(const char *text, size_t length)
+{
+    const char *word;
+    size_t word_length;
+    if (!memchr(text, ',', length)) return false;
+    while (next_word(&text, &word, &word_length)) {
+        if (ppmi_obj_number_kind(word, word_length) == PPMI_OBJ_DECIMAL_COMMA) return true;
+    }
+    return false;
 }
 
 /* Colours of three or more numbers behind the coordinates; one number is a weight of free-form
@@ -85,6 +101,10 @@ static void read_color(ppmi_obj_reader *r, const char *text)
     float color[3];
     const size_t left = (size_t)(r->text + r->text_length - text);
     const bool has_color = left > 0 && ppmi_obj_parse_floats(text, left, color, 3) == 3;
+    if (left > 0 && !has_color && has_comma(text, left)) {
+        invalid_word(r, "a vertex colour", text + 1, left - 1);
+        return;
+    }
     if (!has_color && r->colors.count == 0) return;
     const size_t missing = r->positions.count - r->colors.count;
     float *colors = ppmi_obj_push(r->context, &r->colors, missing, 3 * sizeof *colors);
@@ -102,8 +122,10 @@ static void receive_position(void *user, const float xyz[3])
 {
     ppmi_obj_reader *r = user;
     float checked[3] = {xyz[0], xyz[1], xyz[2]};
-    const char *rest = check_coordinates(r, checked);
-    float *position = rest ? push_floats(r, &r->positions, 3) : NULL;
+    const char *rest = r->text + 1;
+    const int count = check_numbers(r, "a coordinate", &rest, checked, 3);
+    if (count >= 0 && count < 3) invalid(r, "a vertex needs three coordinates");
+    float *position = count == 3 ? push_floats(r, &r->positions, 3) : NULL;
     if (!position) return;
     memcpy(position, checked, sizeof checked);
     read_color(r, rest);
@@ -112,66 +134,68 @@ static void receive_position(void *user, const float xyz[3])
 static void receive_uv(void *user, const float uv[2])
 {
     ppmi_obj_reader *r = user;
+    float checked[2] = {uv[0], uv[1]};
+    const char *rest = r->text + 2;
+    if (check_numbers(r, "a texture coordinate", &rest, checked, 2) < 0) return;
+    if (isnan(checked[0]) || isnan(checked[1])) {
+        r->tally.no_number_uvs++;
+        memset(checked, 0, sizeof checked);
+    }
     float *added = push_floats(r, &r->uvs, 2);
-    if (added) memcpy(added, uv, 2 * sizeof *uv);
+    if (added) memcpy(added, checked, sizeof checked);
 }
 
+/* One that is not finite has no length, and faces have their own in its place. */
 static void receive_normal(void *user, const float xyz[3])
 {
     ppmi_obj_reader *r = user;
+    float checked[3] = {xyz[0], xyz[1], xyz[2]};
+    const char *rest = r->text + 2;
+    if (check_numbers(r, "a normal", &rest, checked, 3) < 0) return;
+    if (isnan(checked[0]) || isnan(checked[1]) || isnan(checked[2])) {
+        r->tally.no_number_normals++;
+        memset(checked, 0, sizeof checked);
+    }
     float *added = push_floats(r, &r->normals, 3);
-    if (added) memcpy(added, xyz, 3 * sizeof *xyz);
+    if (added) memcpy(added, checked, sizeof checked);
 }
 
 /* ---- faces ----------------------------------------------------------------------------------- */
 
-/* From as written to from 0; 0, which is none, to -1. False for one before the first element. An
- * index beyond the last one so far is noted: the element may still come. */
-static bool resolve(const ppmi_obj_reader *r, int32_t *index, size_t count, ppmi_obj_reach *reach)
+/* The first fault of a kind. */
+static void note_fault(const ppmi_obj_reader *r, ppmi_obj_fault *fault, const char *what)
+{
+    if (fault->line == 0) *fault = (ppmi_obj_fault){r->lines.number, what, r->kind};
+}
+
+/* From as written to from 0; 0, which is none, to -1. An index beyond the last element so far is
+ * noted: it may still come. */
+static void resolve(const ppmi_obj_reader *r, int32_t *index, size_t count, ppmi_obj_reach *reach,
+                    ppmi_obj_fault *fault)
 {
     if (*index > 0) {
         if ((size_t)*index > count && *index > reach->most) {
             *reach = (ppmi_obj_reach){*index, r->lines.number, r->kind};
         }
         --*index;
-        return true;
-    }
-    if (*index == 0) {
+    } else if (*index == 0) {
         *index = -1;
-        return true;
+    } else {
+        const int64_t absolute = (int64_t)count + *index;
+        if (absolute < 0)
+            note_fault(r, fault, "a negative index that points before the first element");
+        *index = absolute < 0 ? PPMI_OBJ_NOWHERE : (int32_t)absolute;
     }
-    const int64_t absolute = (int64_t)count + *index;
-    *index = (int32_t)absolute;
-    return absolute >= 0;
 }
 
-static const char *kind_name(int32_t kind)
-{
-    return kind == PPM_PRIMITIVE_TRIANGLES ? "face"
-           : kind == PPM_PRIMITIVE_LINES   ? "line"
-                                           : "point";
-}
-
-static void invalid_index(ppmi_obj_reader *r, const char *what)
-{
-    if (r->status != PPM_STATUS_OK) return;
-    r->status = ppmi_fail(r->context, PPM_STATUS_INPUT_INVALID, "%s: line %zu: a %s has %s",
-                          r->path, r->lines.number, kind_name(r->kind), what);
-}
-
-static bool resolve_corner(ppmi_obj_reader *r, ppmi_obj_corner *corner)
+static void resolve_corner(ppmi_obj_reader *r, ppmi_obj_corner *corner)
 {
     if (corner->position == 0) {
-        invalid_index(r, "an index of 0 or one that is not a number");
-        return false;
+        note_fault(r, &r->position_fault, "an index of 0 or one that is not a number");
     }
-    if (!resolve(r, &corner->position, r->positions.count, &r->position_reach) ||
-        !resolve(r, &corner->uv, r->uvs.count, &r->uv_reach) ||
-        !resolve(r, &corner->normal, r->normals.count, &r->normal_reach)) {
-        invalid_index(r, "a negative index that points before the first element");
-        return false;
-    }
-    return true;
+    resolve(r, &corner->position, r->positions.count, &r->position_reach, &r->position_fault);
+    resolve(r, &corner->uv, r->uvs.count, &r->uv_reach, &r->uv_fault);
+    resolve(r, &corner->normal, r->normals.count, &r->normal_reach, &r->normal_fault);
 }
 
 /* The number of the current node's name: "object", "group" or "object/group". */
@@ -230,7 +254,7 @@ static void add_element(ppmi_obj_reader *r, int32_t kind, const ppmi_obj_corner 
     ((ppmi_obj_run *)r->runs.items)[r->runs.count - 1].end_face = r->faces.count;
     for (size_t i = 0; i < count; ++i) {
         added[i] = corners[i];
-        if (!resolve_corner(r, &added[i])) return;
+        resolve_corner(r, &added[i]);
     }
 }
 
@@ -238,6 +262,10 @@ static void receive_face(void *user, const ppmi_obj_corner *corners, size_t coun
 {
     ppmi_obj_reader *r = user;
     if (r->status != PPM_STATUS_OK) return;
+    if (r->is_broken_face) {
+        r->tally.broken++;
+        return;
+    }
     if (count < 3) {
         r->tally.small_faces++;
         return;
@@ -246,71 +274,28 @@ static void receive_face(void *user, const ppmi_obj_corner *corners, size_t coun
     add_element(r, PPM_PRIMITIVE_TRIANGLES, corners, count);
 }
 
+static const char not_an_index[] = "an index that is not a number of at most nine digits";
+
 /* An l or p statement, without its word. */
 static void read_element(ppmi_obj_reader *r, int32_t kind, char *text, size_t length)
 {
     bool is_valid;
-    const char *comment = memchr(text, '#', length);
-    if (comment) ppmi_obj_cut(text, &length, (size_t)(comment - text));
+    ppmi_obj_cut(text, &length, ppmi_obj_comment_of_numbers(text, length));
     if (!ppmi_obj_read_corners(r, text, length, &r->element, &is_valid)) {
         out_of_memory(r);
         return;
     }
     const size_t count = r->element.count;
     if (!is_valid) {
-        invalid(r, kind == PPM_PRIMITIVE_LINES
-                       ? "a line has an index that is not a number of at most nine digits"
-                       : "a point has an index that is not a number of at most nine digits");
+        r->tally.broken++;
+        if (r->position_fault.line == 0) {
+            r->position_fault = (ppmi_obj_fault){r->lines.number, not_an_index, kind};
+        }
     } else if (count >= (kind == PPM_PRIMITIVE_LINES ? 2u : 1u)) {
         add_element(r, kind, r->element.items, count);
     } else {
         r->tally.short_lines++;
     }
-}
-
-static ppm_status check_reach(ppmi_obj_reader *r, const ppmi_obj_reach *reach, size_t count,
-                              const char *what)
-{
-    if (reach->most <= 0 || (size_t)reach->most <= count) return PPM_STATUS_OK;
-    return ppmi_fail(r->context, PPM_STATUS_INPUT_INVALID,
-                     "%s: line %zu: a %s has %s %d, of %zu in the file", r->path, reach->line,
-                     kind_name(reach->kind), what, (int)reach->most, count);
-}
-
-/* Programs that strip texture vertices or normals may leave their indices behind: where there are
- * none at all, such indices mean nothing. */
-static void drop_indices_of_nothing(ppmi_obj_reader *r)
-{
-    const bool drops_uvs = r->uvs.count == 0 && r->uv_reach.most > 0;
-    const bool drops_normals = r->normals.count == 0 && r->normal_reach.most > 0;
-    ppmi_obj_corner *corners = r->corners.items;
-    for (size_t i = 0; (drops_uvs || drops_normals) && i < r->corners.count; ++i) {
-        if (drops_uvs) corners[i].uv = -1;
-        if (drops_normals) corners[i].normal = -1;
-    }
-    if (drops_uvs) {
-        r->uv_reach.most = 0;
-        ppmi_log(r->context, PPM_LOG_WARNING,
-                 "%s: faces have texture vertices, of which there are none", r->path);
-    }
-    if (drops_normals) {
-        r->normal_reach.most = 0;
-        ppmi_log(r->context, PPM_LOG_WARNING,
-                 "%s: faces have vertex normals, of which there are none", r->path);
-    }
-}
-
-static ppm_status check_indices(ppmi_obj_reader *r)
-{
-    drop_indices_of_nothing(r);
-    ppm_status status = check_reach(r, &r->position_reach, r->positions.count, "vertex");
-    if (status == PPM_STATUS_OK) {
-        status = check_reach(r, &r->uv_reach, r->uvs.count, "texture vertex");
-    }
-    if (status == PPM_STATUS_OK) {
-        status = check_reach(r, &r->normal_reach, r->normals.count, "vertex normal");
-    }
-    return status;
 }
 
 /* ---- state ----------------------------------------------------------------------------------- */
@@ -327,6 +312,7 @@ static void set_name(ppmi_obj_reader *r, char **name, const char *text, size_t l
 
 static void set_group(ppmi_obj_reader *r, const char *text, size_t length)
 {
+    length = ppmi_obj_plain_name_length(text, length);
     const bool is_none = length == 7 && memcmp(text, "default", 7) == 0;
     set_name(r, &r->group, text, is_none ? 0 : length);
 }
@@ -409,7 +395,7 @@ static void read_state(ppmi_obj_reader *r, const char *word, char *text, size_t 
     } else if (strcmp(word, "g") == 0) {
         set_group(r, text, length);
     } else if (strcmp(word, "o") == 0) {
-        set_name(r, &r->object, text, length);
+        set_name(r, &r->object, text, ppmi_obj_plain_name_length(text, length));
         set_name(r, &r->group, NULL, 0);
     } else if (strcmp(word, "mtllib") == 0) {
         note_libraries(r, text, length);
@@ -431,16 +417,21 @@ static bool is_for_parser(const char *text, size_t word)
 }
 
 /* Looks through an f statement for what the parser would misread: slashes with nothing behind them
- * ("1//"), behind which it would go on in the next corner, are taken away; numbers that wrap around
- * in 32 bits are refused. */
+ * ("1//"), behind which it would go on in the next corner, are taken away; one with numbers that
+ * wrap around in 32 bits is left out. */
 static void check_face_text(ppmi_obj_reader *r, char *text, size_t length)
 {
     size_t digits = 0;
+    r->is_broken_face = false;
     for (size_t i = length; i-- > 0;) {
         const bool is_open = text[i] == '/' && (i + 1 == length || ppmi_obj_is_blank(text[i + 1]));
         if (is_open) text[i] = ' ';
         digits = text[i] >= '0' && text[i] <= '9' ? digits + 1 : 0;
-        if (digits > 9) invalid(r, "a face has an index of more than nine digits");
+        if (digits > 9) r->is_broken_face = true;
+    }
+    if (r->is_broken_face && r->position_fault.line == 0) {
+        r->position_fault = (ppmi_obj_fault){r->lines.number, "an index of more than nine digits",
+                                             PPM_PRIMITIVE_TRIANGLES};
     }
 }
 
@@ -455,8 +446,8 @@ static char *next_for_parser(void *user, size_t *out_length)
         size_t rest_length = length;
         const size_t word = ppmi_obj_take_word(&rest, &rest_length);
         if (is_for_parser(text, word)) {
-            const char *comment = memchr(text, '#', length);
-            if (comment) ppmi_obj_cut(text, &length, (size_t)(comment - text));
+            const size_t comment = ppmi_obj_comment_of_numbers(text, length);
+            if (comment < length) ppmi_obj_cut(text, &length, comment);
             if (text[0] == 'f') check_face_text(r, text, length);
             if (text[0] == 'f' && length == 1) r->tally.small_faces++;
             r->text = text;
@@ -485,5 +476,5 @@ ppm_status ppmi_obj_read_statements(ppmi_obj_reader *r)
     if (status == PPM_STATUS_OK) status = r->lines.status;
     if (status == PPM_STATUS_OK) status = r->status;
     ppmi_obj_lines_close(&r->lines);
-    return status == PPM_STATUS_OK ? check_indices(r) : status;
+    return status == PPM_STATUS_OK ? ppmi_obj_settle_indices(r) : status;
 }

@@ -19,7 +19,6 @@ static void broken_lines_and_points_are_refused_with_their_line(void **state)
         {"l 1 -\n", "line 4: a line has an index that is not a number"},
         {"p 4\n", "line 4: a point has vertex 4, of 3 in the file"},
         {"p /1\n", "line 4: a point has an index that is not a number"},
-        {"vt 0 0\nl 1/1 2/7\n", "line 5: a line has texture vertex 7, of 1 in the file"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         char text[256];
@@ -27,6 +26,14 @@ static void broken_lines_and_points_are_refused_with_their_line(void **state)
         assert_obj_status(f, obj_import(f, text), PPM_STATUS_INPUT_INVALID);
         assert_obj_logged(f, 'E', cases[i].message);
     }
+}
+
+static void a_line_whose_texture_vertex_is_not_there_goes_without(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_status(f, obj_import(f, OBJ_TRIANGLE "vt 0.5 0.5\nl 1/1 2/7\n"), PPM_STATUS_OK);
+    assert_obj_logged(f, 'W', "line 5: a line has texture vertex 7, of 1 in the file");
+    assert_null(obj_only_primitive(f)->uvs[0]);
 }
 
 static void a_line_is_a_segment_from_each_vertex_to_the_next(void **state)
@@ -121,6 +128,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(broken_lines_and_points_are_refused_with_their_line),
+        TEST(a_line_whose_texture_vertex_is_not_there_goes_without),
         TEST(a_line_is_a_segment_from_each_vertex_to_the_next),
         TEST(every_vertex_of_a_point_statement_is_a_point),
         TEST(lines_have_texture_coordinates_and_colours),

@@ -83,6 +83,59 @@ static void nothing_outside_of_the_folder_is_read(void **state)
     assert_not_read(f, "mtllib");
 }
 
+static void comments_behind_names_are_cut_where_there_is_no_such_name(void **state)
+{
+    obj_fixture *f = *state;
+    static const struct {
+        const char *in_library, *used, *shown;
+    } cases[] = {{"Red", "Red # body paint", "Red"},
+                 {"Red # red paint", "Red", "Red"},
+                 {"Red # red paint", "Red # body", "Red"},
+                 {"Red #1", "Red #1", "Red #1"},
+                 {"Red #1", "Red #1 # one", "Red #1"},
+                 {"Red #1 # one", "Red #1", "Red #1"},
+                 {"Red # a # b", "Red", "Red"},
+                 {"Red#1", "Red#1", "Red#1"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, "newmtl Other\nnewmtl %s\nKd 1 0 0 # red\nd 1# opaque\n",
+                 cases[i].in_library);
+        obj_write_text(f, "sub/scene.mtl", text);
+        snprintf(text, sizeof text,
+                 "mtllib scene.mtl # the library\nusemtl %s\n" OBJ_TRIANGLE "f 1 2 3\n",
+                 cases[i].used);
+        assert_obj_status(f, obj_import(f, text), PPM_STATUS_OK);
+        assert_obj_quiet(f);
+        assert_int_equal(f->scene->material_count, 1);
+        assert_string_equal(f->scene->materials[0].name, cases[i].shown);
+        assert_obj_near(f->scene->materials[0].desc.base_color[1], 0.0);
+    }
+}
+
+static void a_name_as_it_stands_comes_before_one_without_comment(void **state)
+{
+    obj_fixture *f = *state;
+    obj_write_text(f, "sub/scene.mtl", "newmtl Red\nKd 1 0 0\nnewmtl Red # 2\nKd 0 1 0\n");
+    assert_obj_status(f,
+                      obj_import(f, "mtllib scene.mtl\n" OBJ_TRIANGLE "usemtl Red # 2\nf 1 2 3\n"
+                                    "usemtl Red # 3\nf 1 2 3\n"),
+                      PPM_STATUS_OK);
+    assert_int_equal(f->scene->material_count, 2);
+    assert_string_equal(f->scene->materials[0].name, "Red # 2");
+    assert_obj_near(f->scene->materials[0].desc.base_color[1], 1.0);
+    assert_string_equal(f->scene->materials[1].name, "Red");
+}
+
+static void a_library_whose_name_has_a_mark_is_read(void **state)
+{
+    obj_fixture *f = *state;
+    obj_write_text(f, "sub/#a #1.mtl", "newmtl m\n");
+    assert_read(f, "mtllib #a #1.mtl");
+    assert_read(f, "mtllib #a #1.mtl # one");
+    assert_obj_quiet(f);
+    assert_not_read(f, "mtllib missing # one");
+}
+
 static void an_obj_without_a_folder_in_its_path_finds_its_library(void **state)
 {
     obj_fixture *f = *state;
@@ -156,6 +209,9 @@ int main(void)
         TEST(names_may_hold_blanks_and_stand_in_a_row),
         TEST(a_library_that_is_elsewhere_is_found_by_its_last_part),
         TEST(nothing_outside_of_the_folder_is_read),
+        TEST(comments_behind_names_are_cut_where_there_is_no_such_name),
+        TEST(a_name_as_it_stands_comes_before_one_without_comment),
+        TEST(a_library_whose_name_has_a_mark_is_read),
         TEST(an_obj_without_a_folder_in_its_path_finds_its_library),
         TEST(materials_may_have_no_name_blanks_or_another_encoding),
         TEST(of_two_materials_of_one_name_the_first_counts),

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -116,6 +117,58 @@ static void numbers_that_are_left_out_have_their_defaults(void **state)
     assert_int_equal(read_map("-imfchan z a.png").channel, 0); /* a depth that no file here has */
 }
 
+static void options_without_a_value_leave_the_name(void **state)
+{
+    (void)state;
+    const char *const options[] = {"-clamp", "-cc",    "-blendu",     "-imfchan", "-bm",
+                                   "-mm",    "-boost", "-texres",     "-type",    "-s",
+                                   "-o",     "-t",     "-colorspace", "-blendv"};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; ++i) {
+        char text[64];
+        snprintf(text, sizeof text, "%s tex.png", options[i]);
+        assert_string_equal(read_map(text).name, "tex.png");
+    }
+    assert_true(read_map("-clamp tex.png").clamp);
+    assert_false(read_map("-clamp off tex.png").clamp);
+}
+
+static void numbers_may_have_decimal_commas(void **state)
+{
+    (void)state;
+    const ppmi_obj_map map = read_map("-bm 0,5 -s 2,0 1,5 tex.png");
+    assert_true(map.has_comma);
+    assert_float_equal(map.bump, 0.5f, 0.0f);
+    assert_float_equal(map.scale[1], 1.5f, 0.0f);
+    assert_string_equal(map.name, "tex.png");
+    assert_false(read_map("-bm 0.5 a,b.png").has_comma);
+}
+
+static void options_may_be_behind_the_name(void **state)
+{
+    (void)state;
+    ppmi_obj_map map = {0};
+    const char *const texts[] = {"a b.png -bm 0.25 -clamp on", "-clamp on a b.png -bm 0.25",
+                                 "\"a b.png\" -bm 0.25 -clamp"};
+    for (size_t i = 0; i < 3; ++i) {
+        assert_true(ppmi_obj_map_read_behind(context, texts[i], strlen(texts[i]), &map));
+        assert_string_equal(map.name, "a b.png");
+        assert_float_equal(map.bump, 0.25f, 0.0f);
+        assert_true(map.clamp);
+    }
+    const char *const names[] = {"a -b.png", "a -bm 1 b.png", "a-bm 1"};
+    for (size_t i = 0; i < 3; ++i) {
+        assert_true(ppmi_obj_map_read_behind(context, names[i], strlen(names[i]), &map));
+        assert_string_equal(map.name, names[i]);
+        assert_float_equal(map.bump, 1.0f, 0.0f);
+    }
+    ppmi_obj_map_deinit(context, &map);
+    map = read_map("a.png -bm 0.25"); /* as it stands */
+    assert_string_equal(map.name, "a.png -bm 0.25");
+    assert_true(ppmi_obj_map_may_hold_more(&map));
+    map = read_map("a#1-b.png");
+    assert_false(ppmi_obj_map_may_hold_more(&map));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -124,6 +177,9 @@ int main(void)
         cmocka_unit_test(names_may_have_blanks_quotes_and_leading_digits),
         cmocka_unit_test(every_option_is_read),
         cmocka_unit_test(numbers_that_are_left_out_have_their_defaults),
+        cmocka_unit_test(options_without_a_value_leave_the_name),
+        cmocka_unit_test(numbers_may_have_decimal_commas),
+        cmocka_unit_test(options_may_be_behind_the_name),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

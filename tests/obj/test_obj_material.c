@@ -1,5 +1,6 @@
 /* importers/obj/obj_material.c: the mapping that docs/obj.md states. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "obj_fixture.h"
@@ -253,6 +254,49 @@ static void a_material_that_no_library_has_is_the_default(void **state)
     assert_null(strstr(told + 1, "usemtl 'none'"));
 }
 
+/* The value that is meant, and a word about it. */
+static void decimal_commas_are_read_with_a_warning(void **state)
+{
+    obj_fixture *f = *state;
+    const ppm_material_desc *d =
+        obj_import_material(f, "Kd 0,5 0,25 1\nd 0,5\nNs 96,07\nKe 2,0,0,5,0\n");
+    assert_obj_near(d->base_color[0], 0.5);
+    assert_obj_near(d->base_color[1], 0.25);
+    assert_obj_near(d->base_color[2], 1.0);
+    assert_obj_near(d->base_color[3], 0.5);
+    assert_obj_near(d->roughness, pow(2.0 / 98.07, 0.25));
+    assert_obj_logged(f, 'W',
+                      "scene.mtl: line 2: '0,5 0,25 1' is read as '0.5 0.25 1': 4 statements");
+    assert_obj_near(obj_import_material(f, "Kd 1,0,0\n")->base_color[1], 0.0);
+    assert_obj_logged(f, 'W', "'1,0,0' is read as '1 0 0'");
+    assert_obj_near(obj_import_material(f, "Kd 0,5\n")->base_color[2], 0.5);
+}
+
+static void values_that_are_no_numbers_are_left_out(void **state)
+{
+    obj_fixture *f = *state;
+    const char *const words[] = {"nan", "1.#IND", "x", "-1.#INF00"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, "Kd %s %s %s\nd %s\nNs %s\nPm %s\n", words[i], words[i],
+                 words[i], words[i], words[i], words[i]);
+        const ppm_material_desc *d = obj_import_material(f, text);
+        assert_obj_near(d->base_color[0], 0.8); /* as without the statement */
+        assert_obj_near(d->base_color[3], 1.0);
+        assert_obj_near(d->roughness, 0.5);
+        assert_obj_logged(f, 'W', "no effect: Kd ");
+        assert_false(obj_logged(f, 'W', "opaque"));
+    }
+}
+
+static void d_may_have_a_halo(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_near(obj_import_material(f, "d -halo 0.3\n")->base_color[3], 0.3);
+    assert_obj_logged(f, 'W', "no effect: d -halo");
+    assert_obj_near(obj_import_material(f, "d -halo 0,3 # thin\n")->base_color[3], 0.3);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, obj_setup, obj_teardown)
 
 int main(void)
@@ -279,6 +323,9 @@ int main(void)
         TEST(anisotropy_is_turned_in_turns),
         TEST(what_has_no_effect_is_told_once),
         TEST(a_material_that_no_library_has_is_the_default),
+        TEST(decimal_commas_are_read_with_a_warning),
+        TEST(values_that_are_no_numbers_are_left_out),
+        TEST(d_may_have_a_halo),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

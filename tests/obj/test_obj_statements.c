@@ -46,6 +46,40 @@ static void numbers_are_read_in_all_their_forms(void **state)
     assert_obj_quiet(f);
 }
 
+static void other_numbers_that_are_none_are_refused_with_their_line(void **state)
+{
+    obj_fixture *f = *state;
+    assert_refused(f, OBJ_TRIANGLE "vt 0,5 0,5\n",
+                   "line 4: a texture coordinate is not a number: "
+                   "'0,5'; a decimal comma?");
+    assert_refused(f, OBJ_TRIANGLE "vn 0 0,0 1\n", "line 4: a normal is not a number: '0,0'");
+    assert_refused(f, "v 0 0 0 0,5 0,5 0,5\n", "line 1: a vertex colour is not a number");
+}
+
+/* As Microsoft's library wrote them. The '#' begins no comment there. */
+static void numbers_that_are_not_finite_are_known_in_all_their_forms(void **state)
+{
+    obj_fixture *f = *state;
+    const char *const forms[] = {"nan", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#INF", "inf"};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; ++i) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 OBJ_SQUARE "v %s 0 0 # not there\nvn 0 %s 1#no blank\nvt %s 1\n"
+                            "f 1/1/1 2/1/1 3/1/1 # 4\nf 1/1/1 2/1/1 5/1/1\n",
+                 forms[i], forms[i], forms[i]);
+        assert_obj_status(f, obj_import(f, text), PPM_STATUS_OK);
+        const ppmi_primitive *p = obj_only_primitive(f);
+        assert_int_equal(p->triangle_count, 1);
+        assert_obj_near(p->uvs[0][0], 0.0f);
+        assert_obj_logged(f, 'W', "not a finite number");
+        assert_obj_logged(f, 'W', "1 texture vertices that are not finite numbers");
+        assert_obj_logged(f, 'W', "1 vertex normals that are not finite numbers");
+        for (int k = 0; k < 3; ++k) { /* no length: the surface takes the face's */
+            assert_obj_near(p->normals[k], 0.0f);
+        }
+    }
+}
+
 static void coordinates_that_are_missing_or_no_numbers_are_refused_with_their_line(void **state)
 {
     obj_fixture *f = *state;
@@ -91,6 +125,36 @@ static void colours_up_to_255_are_read_as_such(void **state)
     assert_obj_logged(f, 'W', "0 .. 255");
 }
 
+/* Only colours that can be nothing else are of 0 .. 255. */
+static void colours_a_little_or_seldom_beyond_1_are_cut(void **state)
+{
+    obj_fixture *f = *state;
+    static const struct {
+        const char *colours[3];
+        float first, third;
+        int is_told;
+    } cases[] = {{{"1.001 0.5 0.5", "1 0.5 0.5", "1 0.5 0.5"}, 1.0f, 0.21404114f, 0},
+                 {{"1.5 0 0", "0 0 0", "0.5 0.5 0.5"}, 1.0f, 0.21404114f, 1},
+                 {{"300.5 0 0", "0.25 0 0", "0.5 0.5 0.5"}, 1.0f, 0.21404114f, 1},
+                 {{"2 0 0", "0 0 0", "1 1 1"}, 1.0f, 1.0f, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, "v 0 0 0 %s\nv 1 0 0 %s\nv 0 1 0 %s\nf 1 2 3\n",
+                 cases[i].colours[0], cases[i].colours[1], cases[i].colours[2]);
+        assert_obj_status(f, obj_import(f, text), PPM_STATUS_OK);
+        const ppmi_primitive *p = obj_only_primitive(f);
+        assert_obj_near(p->colors[0], cases[i].first);
+        assert_obj_near(p->colors[10], cases[i].third);
+        assert_int_equal(obj_logged(f, 'W', "is cut"), cases[i].is_told);
+        assert_false(obj_logged(f, 'W', "0 .. 255"));
+    }
+    /* with fractions, but beyond doubt */
+    assert_obj_status(
+        f, obj_import(f, "v 0 0 0 255 0 0\nv 1 0 0 127.5 9 9\nv 0 1 0 0 0 51\nf 1 2 3\n"),
+        PPM_STATUS_OK);
+    assert_obj_near(obj_only_primitive(f)->colors[10], 0.033104766f);
+}
+
 /* ---- faces ----------------------------------------------------------------------------------- */
 
 static void negative_indices_count_from_the_latest_element(void **state)
@@ -119,20 +183,69 @@ static void a_face_may_come_before_its_vertices(void **state)
     assert_corner(obj_only_primitive(f), 1, 1.0f, 0.0f, 0.0f);
 }
 
-static void indices_out_of_range_are_refused_with_their_line(void **state)
+static void a_face_whose_vertex_is_not_there_is_left_out(void **state)
 {
     obj_fixture *f = *state;
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 3\nf 1 2 4\nf 1 2 3\n",
-                   "line 5: a face has vertex 4, of 3");
-    assert_refused(f, OBJ_TRIANGLE "vt 0 0\nf 1/1 2/2 3/1\n",
-                   "line 5: a face has texture vertex 2, of 1");
-    assert_refused(f, OBJ_TRIANGLE "vn 0 0 1\n\nf 1//1 2//1 3//9\n",
-                   "line 6: a face has vertex normal 9, of 1");
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 -4\n", "line 4: a face has a negative index");
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 0\n", "line 4: a face has an index of 0");
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 x\n", "line 4: a face has an index of 0");
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 999999999\n", "line 4: a face has vertex 999999999");
-    assert_refused(f, OBJ_TRIANGLE "f 1 2 4294967297\n", "line 4: a face has an index of more");
+    static const struct {
+        const char *face, *message;
+    } cases[] = {{"f 1 2 4\n", "line 4: a face has vertex 4, of 3"},
+                 {"f 1 2 -4\n", "line 4: a face has a negative index that points before"},
+                 {"f 1 2 0\n", "line 4: a face has an index of 0"},
+                 {"f 1 2 x\n", "line 4: a face has an index of 0"},
+                 {"f 1 2 999999999\n", "line 4: a face has vertex 999999999"},
+                 {"f 1 2 4294967297\n", "line 4: a face has an index of more"},
+                 {"l 1 x\n", "line 4: a line has an index that is not a number"},
+                 {"l 1 9\n", "line 4: a line has vertex 9, of 3"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[256];
+        snprintf(text, sizeof text, OBJ_TRIANGLE "%s", cases[i].face);
+        assert_refused(f, text, cases[i].message); /* nothing is left */
+        assert_obj_logged(f, 'E', "nothing is left");
+        snprintf(text, sizeof text, OBJ_TRIANGLE "%sg other\ns 1\nf 3 1 2\n", cases[i].face);
+        assert_obj_status(f, obj_import(f, text), PPM_STATUS_OK);
+        assert_obj_logged(f, 'W', cases[i].message);
+        assert_int_equal(obj_only_primitive(f)->triangle_count, 1);
+        assert_corner(obj_only_primitive(f), 0, 0.0f, 1.0f, 0.0f);
+        f->options.strict = 1;
+        assert_refused(f, text, cases[i].message);
+        assert_obj_logged(f, 'E', "strict");
+        f->options.strict = 0;
+    }
+}
+
+static void a_face_whose_normal_or_texture_vertex_is_not_there_goes_without(void **state)
+{
+    obj_fixture *f = *state;
+    const char *const normals = OBJ_SQUARE "vn 0 1 0\nf 1//1 2//1 3//2\nf 1//1 3//1 4//-7\n";
+    const char *const uvs = OBJ_SQUARE "vt 1 1\nf 1/1 2/1 3/-2\nf 1/1 3/1 4/1\n";
+    assert_obj_status(f, obj_import(f, normals), PPM_STATUS_OK);
+    assert_obj_logged(f, 'W', "line 6: a face has vertex normal 2, of 1");
+    assert_obj_logged(f, 'W', "2 faces, lines and points with such a vertex normal");
+    assert_int_equal(obj_only_primitive(f)->triangle_count, 2);
+    assert_null(obj_only_primitive(f)->normals);
+    assert_obj_status(f, obj_import(f, uvs), PPM_STATUS_OK);
+    assert_obj_logged(f, 'W', "1 faces, lines and points with such a texture vertex");
+    const ppmi_primitive *p = obj_only_primitive(f);
+    for (int i = 0; i < 3; ++i) { /* the whole face */
+        assert_obj_near(p->uvs[0][2 * p->indices[i]], 0.0f);
+        assert_obj_near(p->uvs[0][2 * p->indices[3 + i]], 1.0f);
+    }
+    f->options.strict = 1;
+    assert_refused(f, normals, "strict");
+    assert_refused(f, uvs, "strict");
+}
+
+/* With the normal of another face beside it, a face without one is flat. */
+static void a_face_without_its_normal_is_flat_among_others(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_status(f, obj_import(f, OBJ_SQUARE "vn 0 1 0\nf 1//1 2//1 3//2\nf 1//1 3//1 4//1\n"),
+                      PPM_STATUS_OK);
+    const ppmi_primitive *p = obj_only_primitive(f);
+    for (int i = 0; i < 3; ++i) {
+        assert_obj_near(p->normals[3 * p->indices[i] + 2], 1.0f);
+        assert_obj_near(p->normals[3 * p->indices[3 + i] + 1], 1.0f);
+    }
 }
 
 static void indices_into_elements_of_which_there_are_none_are_dropped(void **state)
@@ -204,6 +317,21 @@ static void objects_and_groups_are_named_nodes(void **state)
     assert_obj_quiet(f);
 }
 
+static void comments_behind_names_are_not_of_them(void **state)
+{
+    obj_fixture *f = *state;
+    assert_obj_status(f,
+                      obj_import(f, OBJ_TRIANGLE "o Thing # a comment\nf 1 2 3\no Part#3\nf 1 2 3\n"
+                                                 "o Box #2\nf 1 2 3\no Thing\ng left #side\n"
+                                                 "f 1 2 3\ng # none\nf 1 2 3\n"),
+                      PPM_STATUS_OK);
+    const char *const names[] = {"Thing", "Part#3", "Box #2", "Thing/left"};
+    assert_int_equal(f->scene->instance_count, 4);
+    for (uint32_t i = 0; i < 4; ++i) {
+        assert_string_equal(f->scene->instances[i].name, names[i]);
+    }
+}
+
 static void names_are_utf8_whatever_the_file_is(void **state)
 {
     obj_fixture *f = *state;
@@ -253,17 +381,23 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(numbers_are_read_in_all_their_forms),
         TEST(coordinates_that_are_missing_or_no_numbers_are_refused_with_their_line),
+        TEST(other_numbers_that_are_none_are_refused_with_their_line),
+        TEST(numbers_that_are_not_finite_are_known_in_all_their_forms),
         TEST(triangles_at_a_vertex_that_is_not_finite_are_left_out),
         TEST(colours_behind_the_coordinates_are_decoded),
         TEST(colours_up_to_255_are_read_as_such),
+        TEST(colours_a_little_or_seldom_beyond_1_are_cut),
         TEST(negative_indices_count_from_the_latest_element),
         TEST(a_face_may_come_before_its_vertices),
-        TEST(indices_out_of_range_are_refused_with_their_line),
+        TEST(a_face_whose_vertex_is_not_there_is_left_out),
+        TEST(a_face_whose_normal_or_texture_vertex_is_not_there_goes_without),
+        TEST(a_face_without_its_normal_is_flat_among_others),
         TEST(indices_into_elements_of_which_there_are_none_are_dropped),
         TEST(slashes_with_nothing_behind_them_are_no_indices),
         TEST(faces_of_fewer_than_three_corners_are_counted),
         TEST(polygons_of_many_corners_are_split),
         TEST(objects_and_groups_are_named_nodes),
+        TEST(comments_behind_names_are_not_of_them),
         TEST(names_are_utf8_whatever_the_file_is),
         TEST(what_is_not_drawn_is_counted),
         TEST(a_file_without_vertices_is_refused),

@@ -53,6 +53,27 @@ static void names_may_hold_blanks(void **state)
                      PPM_WRAP_REPEAT);
 }
 
+static void what_is_behind_a_name_is_no_part_of_it_where_there_is_no_such_file(void **state)
+{
+    obj_fixture *f = *state;
+    const char *const statements[] = {
+        "norm a.ppm -bm 2\n",    "norm a.ppm # fine\n",       "norm a.ppm -bm 2 # fine\n",
+        "norm b #1.ppm\n",       "norm b #1.ppm -bm 2\n",     "norm b #1.ppm -bm 2 # fine\n",
+        "norm c -bm 3\n",        "norm \"b #1.ppm\" -bm 2\n", "norm -bm 2 a.ppm -clamp on # x\n",
+        "norm b 2.ppm # a # b\n"};
+    const float scales[] = {2, 1, 2, 1, 2, 2, 1, 2, 2, 1};
+    obj_write(f, "sub/b #1.ppm", image, sizeof image - 1);
+    obj_write(f, "sub/c -bm 3", image, sizeof image - 1);
+    for (size_t i = 0; i < sizeof statements / sizeof statements[0]; ++i) {
+        const ppm_material_desc *d = obj_import_material(f, statements[i]);
+        if (d->normal_texture.image != 1) fail_msg("%s%s", statements[i], f->log);
+        assert_obj_near(d->normal_scale, scales[i]);
+        assert_obj_quiet(f);
+    }
+    obj_import_material(f, "norm missing.ppm -bm 2 # fine\n");
+    assert_obj_logged(f, 'W', "line 2: norm 'missing.ppm -bm 2 # fine': left out");
+}
+
 static void scale_and_offset_are_of_coordinates_with_v_up(void **state)
 {
     const char *const forms[] = {"map_Kd -s 2 4 1 -o 0.25 0.5 0 a.ppm\n",
@@ -205,6 +226,7 @@ int main(void)
         TEST(maps_have_the_role_of_their_statement),
         TEST(a_map_on_black_kd_shows),
         TEST(names_may_hold_blanks),
+        TEST(what_is_behind_a_name_is_no_part_of_it_where_there_is_no_such_file),
         TEST(scale_and_offset_are_of_coordinates_with_v_up),
         TEST(options_with_fewer_numbers_do_not_eat_the_name),
         TEST(options_without_effect_are_told),
