@@ -178,6 +178,8 @@ PPM_API ppm_status ppm_render_options_resolve(const ppm_scene *scene,
  * A scene without a camera gets ppm_scene_add_framing_camera, one without any light a uniform
  * environment of 1 nit with a grey backdrop until the session ends; both are logged (INFO). Several
  * sessions may share a frozen scene; one thread at a time makes and destroys those of a scene.
+ * A scene in which nothing is visible gives a picture of its surroundings, with alpha 0; only one
+ * without instances, cameras and lights is refused.
  * Returns OK, INVALID_ARGUMENT (also: nothing to focus on), WRONG_STATE (nothing to render),
  * OUT_OF_MEMORY. */
 PPM_API ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,

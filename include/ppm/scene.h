@@ -372,8 +372,8 @@ PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id 
 PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
                                               float out_transform[16]);
 /* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
- * and above), for the given aspect (width / height). Returns also WRONG_STATE when the scene has
- * no instance. */
+ * and above), for the given aspect (width / height): all that is visible; where nothing is, all that
+ * is hidden; in a scene without instances a cube of 2 m around the origin. */
 PPM_API ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect,
                                                 ppm_camera_id *out_id);
 /* Replaces a camera, as the calls under "changes between frames" do. */
@@ -531,7 +531,7 @@ typedef struct ppm_scene_info {
     uint64_t lights;   /* punctual lights, emissive triangles, points and lines that are visible,
                           and 1 for an environment */
     uint64_t cameras;
-    uint32_t has_light;  /* non-zero when anything shines */
+    uint32_t has_light;  /* non-zero when anything is meant to shine, be it off or hidden now */
     float bounds_min[3]; /* of all instances, world space; min > max when there are none */
     float bounds_max[3];
 } ppm_scene_info;

@@ -56,7 +56,10 @@ ppm_status ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
     }
     photons->per_pass = job->options->photons_per_pass;
     ppmi_vec3 low, high;
-    ppmi_scene_bounds(job->world.scene, &low, &high);
+    if (!ppmi_scene_bounds(job->world.scene, &low, &high)) { /* an empty frame: any will do */
+        low = vec3_splat(-1.0f);
+        high = vec3_splat(1.0f);
+    }
     photons->largest_radius = largest_share * 0.5f * vec3_length(vec3_sub(high, low));
     photons->first_radius = measure_first_radius(job, photons->largest_radius);
     return PPM_STATUS_OK;

@@ -449,14 +449,21 @@ static void warn_about_the_lens(const ppm_scene *scene, const ppm_render_options
     }
 }
 
+/* A frame in which nothing is to be seen is a picture of the surroundings; a scene to which nobody
+ * gave anything is a mistake. */
+static bool has_anything(const ppm_scene *scene)
+{
+    return scene->instance_count > 0 || scene->camera_count > 0 || scene->punctual_count > 0;
+}
+
 ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options,
                              ppm_render **out_render)
 {
     if (!scene || !out_render) return PPM_STATUS_INVALID_ARGUMENT;
-    ppmi_vec3 low, high;
-    if (!ppmi_scene_bounds(scene, &low, &high)) {
+    if (!has_anything(scene)) {
         return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
-                         "there is nothing to render: the scene has no triangles, points or lines");
+                         "there is nothing to render: the scene has no triangles, points or lines, "
+                         "no camera and no light");
     }
     ppm_status status = complete_scene(scene, options);
     if (status == PPM_STATUS_OK && !scene->is_frozen) status = ppmi_scene_orient(scene);

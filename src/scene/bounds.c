@@ -81,15 +81,28 @@ ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id,
     return PPM_STATUS_OK;
 }
 
-bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
+static bool bounds_of(const ppm_scene *scene, bool is_with_hidden, ppmi_vec3 *out_min,
+                      ppmi_vec3 *out_max)
 {
     *out_min = vec3_splat(INFINITY);
     *out_max = vec3_splat(-INFINITY);
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const ppmi_instance *instance = &scene->instances[i];
-        if (ppmi_instance_is_there(instance)) grow_by_instance(scene, instance, out_min, out_max);
+        if (is_with_hidden || ppmi_instance_is_there(instance)) {
+            grow_by_instance(scene, instance, out_min, out_max);
+        }
     }
     return out_min->x <= out_max->x;
+}
+
+bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
+{
+    return bounds_of(scene, false, out_min, out_max);
+}
+
+bool ppmi_scene_bounds_of_all(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max)
+{
+    return bounds_of(scene, true, out_min, out_max);
 }
 
 static bool mesh_moves(const ppmi_mesh *mesh)

@@ -196,8 +196,9 @@ ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect, ppm_came
     if (status != PPM_STATUS_OK) return status;
     if (!out_id || !(aspect > 0.0f) || !isfinite(aspect)) return PPM_STATUS_INVALID_ARGUMENT;
     ppmi_vec3 low, high;
-    if (!ppmi_scene_bounds(scene, &low, &high)) {
-        return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE, "the scene has nothing to frame");
+    if (!ppmi_scene_bounds(scene, &low, &high) && !ppmi_scene_bounds_of_all(scene, &low, &high)) {
+        low = vec3_splat(-1.0f);
+        high = vec3_splat(1.0f);
     }
     const float y_fov_rad = 0.6f; /* about a 58 mm lens on a 36 x 24 mm sensor: little distortion */
     const float margin = 1.08f;

@@ -424,16 +424,18 @@ static bool is_decoration(const ppmi_material *material)
            vec3_max_component(vec3_load(material->desc.emission)) <= one;
 }
 
-static uint64_t emissive_element_count(const ppm_scene *scene, bool with_decoration)
+/* for_picture: what is visible, and decoration; else what brings light, in this frame or another.
+ */
+static uint64_t emissive_element_count(const ppm_scene *scene, bool for_picture)
 {
     uint64_t count = 0;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        if (!ppmi_instance_is_there(&scene->instances[i])) continue;
+        if (for_picture && !ppmi_instance_is_there(&scene->instances[i])) continue;
         const ppmi_mesh *mesh = &scene->meshes[scene->instances[i].mesh];
         for (uint32_t k = 0; k < mesh->primitive_count; k++) {
             const ppmi_primitive *primitive = &mesh->primitives[k];
             const ppmi_material *material = &scene->materials[primitive->material];
-            if (!material->emits || (is_decoration(material) && !with_decoration)) continue;
+            if (!material->emits || (is_decoration(material) && !for_picture)) continue;
             count += primitive->element_count;
         }
     }
@@ -443,9 +445,7 @@ static uint64_t emissive_element_count(const ppm_scene *scene, bool with_decorat
 bool ppmi_scene_has_light(const ppm_scene *scene)
 {
     if (scene->environment.is_set && !vec3_is_black(scene->environment.radiance)) return true;
-    for (uint32_t i = 0; i < scene->punctual_count; i++) {
-        if (!vec3_is_black(scene->punctuals[i].intensity)) return true;
-    }
+    if (scene->punctual_count > 0) return true;
     return emissive_element_count(scene, false) > 0;
 }
 

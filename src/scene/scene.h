@@ -219,8 +219,12 @@ bool ppmi_scene_moves(const ppm_scene *scene);
  * are kept; false when there is nothing. */
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
-/* Whether anything shines that is meant to light the scene: an environment, a punctual light, or an
- * emissive material in use that has no texture or is brighter than 1 nit. Emissive textures within
+/* The same of all instances, hidden ones too. */
+bool ppmi_scene_bounds_of_all(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
+
+/* Whether there is anything that is meant to light the scene, though it may be off or hidden now: a
+ * frame in which the lamps go out is dark. An environment, a punctual light, or an emissive material
+ * in use that has no texture or is brighter than 1 nit. Emissive textures within
  * 0 .. 1 are decoration (a display, a glowing logo): files that have nothing else were made for
  * viewers that bring their own light. */
 bool ppmi_scene_has_light(const ppm_scene *scene);

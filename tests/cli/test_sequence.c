@@ -239,6 +239,21 @@ static void pictures_carry_what_the_file_says_about_itself(void **state)
     assert_there((const char *const[]){"owned.exr", NULL});
 }
 
+static void a_file_of_a_camera_alone_has_pictures(void **state)
+{
+    (void)state;
+    FILE *file = fopen("camera.gltf", "w");
+    assert_non_null(file);
+    fputs("{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+          "\"nodes\":[{\"camera\":0}],\"cameras\":[{\"type\":\"perspective\","
+          "\"perspective\":{\"yfov\":1,\"znear\":0.1}}]}",
+          file);
+    assert_int_equal(fclose(file), 0);
+    run_well(QUICK "--frames 1-2 -o empty.%04d.exr camera.gltf");
+    assert_there((const char *const[]){"empty.0001.exr", "empty.0002.exr", NULL});
+    remove("camera.gltf");
+}
+
 static void animations_that_are_not_played_are_told(void **state)
 {
     (void)state;
@@ -387,6 +402,7 @@ int main(void)
         cmocka_unit_test(all_frames_are_framed_alike),
         cmocka_unit_test(the_header_says_which_frame_it_is),
         cmocka_unit_test(pictures_carry_what_the_file_says_about_itself),
+        cmocka_unit_test(a_file_of_a_camera_alone_has_pictures),
         cmocka_unit_test(animations_that_are_not_played_are_told),
         cmocka_unit_test(only_missing_pictures_are_rendered),
         cmocka_unit_test(cameras_that_are_there_are_skipped),

@@ -89,6 +89,31 @@ static void an_empty_scene_cannot_be_rendered(void **state)
     scene_close(&empty);
 }
 
+/* Hidden, with its lamp: an empty frame has the surroundings, and no surroundings are made up. */
+static void an_empty_frame_is_a_picture(void **state)
+{
+    (void)state;
+    static const int32_t integrators[] = {PPM_INTEGRATOR_PATH, PPM_INTEGRATOR_SPPM,
+                                          PPM_INTEGRATOR_PPM};
+    light_point(test.scene, vec3(0, 0.5f, 0), vec3_splat(1.0f));
+    light_directional(test.scene, vec3(0, -1, 0), vec3_splat(1.0f));
+    for (uint32_t i = 1; i <= test.scene->instance_count; i++)
+        assert_int_equal(ppm_scene_set_instance_visible(test.scene, i, 0), PPM_STATUS_OK);
+    for (int k = 0; k < 6; k++) {
+        ppm_render_options options = render_options(integrators[k / 2], 8, 1000);
+        options.is_transparent = k == 0;
+        if (k == 1) light_environment(test.scene, vec3(0.5f, 0.25f, 2.0f), 0, 0.0f);
+        if (k == 2) scene_fog(test.scene, vec3_splat(0.1f), vec3_splat(0.1f), 0.0f);
+        float *picture = render_picture(test.scene, &options, 2);
+        for (size_t i = 0; i < 4 * 8 * 8; i += 4) {
+            assert_float_equal(picture[i], k == 0 ? 0.0 : 0.5, 1e-6);
+            assert_float_equal(picture[i + 2], k == 0 ? 0.0 : 2.0, 1e-6);
+            assert_float_equal(picture[i + 3], k == 0 ? 0.0 : 1.0, 0.0);
+        }
+        free(picture);
+    }
+}
+
 static void defaults_are_resolved(void **state)
 {
     (void)state;
@@ -357,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(bad_options_are_refused),
         WITH_SCENE(an_empty_scene_cannot_be_rendered),
+        WITH_SCENE(an_empty_frame_is_a_picture),
         WITH_SCENE(defaults_are_resolved),
         WITH_SCENE(a_scene_without_camera_and_light_gets_both),
         WITH_SCENE(the_same_seed_gives_the_same_bits_with_any_threads),

@@ -134,17 +134,37 @@ static void the_size_of_a_directional_light_is_checked(void **state)
     assert_near(test.scene->punctuals[id - 1].angular_radius_rad, 0.0, 0.0);
 }
 
-static void framing_needs_something_to_frame(void **state)
+static void framing_needs_an_aspect(void **state)
 {
     (void)state;
     ppm_camera_id id = 77;
-    assert_int_equal(ppm_scene_add_framing_camera(test.scene, 1.0f, &id), PPM_STATUS_WRONG_STATE);
     shape_place(test.scene, shape_box(test.scene, 0, vec3_splat(0.0f), vec3_splat(1.0f), 1, false));
     assert_int_equal(ppm_scene_add_framing_camera(test.scene, 0.0f, &id),
                      PPM_STATUS_INVALID_ARGUMENT);
     assert_int_equal(ppm_scene_add_framing_camera(test.scene, NAN, &id),
                      PPM_STATUS_INVALID_ARGUMENT);
     assert_int_equal(id, 77);
+}
+
+/* Where the framing camera stands, which says how large the scene is to it. */
+static ppmi_vec3 framed_from(void)
+{
+    ppm_camera_id id = 0;
+    assert_int_equal(ppm_scene_add_framing_camera(test.scene, 1.0f, &id), PPM_STATUS_OK);
+    return test.scene->cameras[id - 1].origin;
+}
+
+static void where_nothing_is_visible_the_hidden_is_framed(void **state)
+{
+    (void)state;
+    const ppmi_vec3 empty = framed_from(); /* of the cube -1 .. 1 */
+    const ppm_mesh_id box = shape_box(test.scene, 0, vec3_splat(-1.0f), vec3_splat(1.0f), 1, false);
+    shape_place(test.scene, box);
+    assert_near(vec3_length(vec3_sub(framed_from(), empty)), 0.0, 1e-6);
+    assert_int_equal(ppm_scene_set_instance_visible(test.scene, 1, 0), PPM_STATUS_OK);
+    assert_near(vec3_length(vec3_sub(framed_from(), empty)), 0.0, 1e-6);
+    shape_place_at(test.scene, box, vec3(5.0f, 0.0f, 0.0f));
+    assert_near(framed_from().x, 5.0f + empty.x, 1e-5);
 }
 
 /* Where a point is in the picture, -1..1 each way where it is seen. */
@@ -228,7 +248,8 @@ int main(void)
         WITH_SCENE(scale_in_a_camera_transform_is_ignored),
         WITH_SCENE(lights_out_of_range_are_refused),
         WITH_SCENE(the_size_of_a_directional_light_is_checked),
-        WITH_SCENE(framing_needs_something_to_frame),
+        WITH_SCENE(framing_needs_an_aspect),
+        WITH_SCENE(where_nothing_is_visible_the_hidden_is_framed),
         WITH_SCENE(a_camera_tells_where_it_stands),
         cmocka_unit_test(the_framing_camera_sees_all_corners),
         WITH_SCENE(the_framing_camera_looks_from_right_front_and_above),
