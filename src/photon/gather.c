@@ -4,6 +4,8 @@
  * (docs/transport.md has the comparison with the constant one). */
 #include "photon/gather.h"
 
+#include "photon/adjoint.h"
+
 /* A photon further off the tangent plane than this share of the radius lies on something else:
  * a parallel wall, the far side of an edge. */
 static const float plane_tolerance = 0.3f;
@@ -16,12 +18,10 @@ static const float disk_kernel = 2.0f, ball_kernel = 2.5f;
 
 /* Photons arrive by the cosine of the facet that they land on, the BSDF means the shading normal's
  * (Veach 1997, section 5.3.2). It is the photon's own facet: on a coarse mesh that of the point
- * tells neither how many came there nor whether any could. Below the least cosine directions are
- * too few to matter: they hold 1e-8 of a diffuse surface's light. */
+ * tells neither how many came there nor whether any could. */
 static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 ng)
 {
-    const float least = 1e-4f;
-    return fabsf(ppmi_bsdf_cosine(bsdf, wi)) / ppmi_max(fabsf(vec3_dot(wi, ng)), least);
+    return ppmi_adjoint_arrival(ppmi_bsdf_cosine(bsdf, wi), vec3_dot(wi, ng));
 }
 
 /* Whether a photon's normal says that it lies on the point's surface: on the same side of it, or

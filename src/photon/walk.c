@@ -5,6 +5,8 @@
 #include <omp.h>
 #include <string.h>
 
+#include "photon/adjoint.h"
+
 #include "transport/roulette.h"
 
 /* Photons are handed to threads by the chunk; a chunk's photons stay together, so that their order
@@ -22,40 +24,52 @@ typedef struct ppmi_photon_chunk {
     size_t begin[PPMI_PHOTON_KINDS], count[PPMI_PHOTON_KINDS];
 } ppmi_photon_chunk;
 
-/* Radiance carries the shading normal's cosine, photons the geometric one's: the factor that makes
- * both agree (Veach 1997, equation 5.19). wo is where the photon came from, wi where it goes. */
-static float shading_normal_factor(const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_vec3 wi)
-{
-    const float numerator = fabsf(vec3_dot(wo, bsdf->frame.n) * vec3_dot(wi, bsdf->ng));
-    const float denominator = fabsf(vec3_dot(wo, bsdf->ng) * vec3_dot(wi, bsdf->frame.n));
-    return denominator > 1e-8f ? ppmi_min(numerator / denominator, 1e2f) : 1.0f;
-}
+/* A photon on its way. */
+typedef struct photon_state {
+    ppmi_ray ray;
+    ppmi_vec3 power;
+    ppmi_photon_history history;
+    uint32_t depth; /* number of its next vertex */
+} photon_state;
 
-/* One bounce, at vertex number depth; false when the photon ends. Roulette keeps the power of
- * survivors at what it was before the way here: absorption on the way counts too. history may be
- * NULL. */
-static bool bounce(ppmi_walker *walker, uint32_t depth, const ppmi_vertex *vertex,
-                   const ppmi_bsdf *bsdf, float power_before, ppmi_ray *ray, ppmi_vec3 *power,
-                   ppmi_photon_history *history)
+/* What a walk's photons have in common. */
+typedef struct photon_path {
+    ppm_context *context;
+    const ppmi_photon_walk *walk;
+    ppmi_walker *walker;
+    ppmi_photon_list *lists;
+    uint32_t path, group;
+} photon_path;
+
+static bool draw(ppmi_walker *walker, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
+                 ppmi_vec3 direction, ppmi_bsdf_sample *sample)
 {
+    if (ppmi_adjoint_leans(bsdf)) {
+        return ppmi_adjoint_draw(walker, vertex, bsdf, vec3_neg(direction), sample);
+    }
     const float u_lobe = ppmi_walker_float(walker), u = ppmi_walker_float(walker),
                 v = ppmi_walker_float(walker);
+    return ppmi_bsdf_draw(bsdf, walker->world->albedo, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER, u_lobe,
+                          u, v, sample);
+}
+
+/* One bounce; false when the photon ends. Roulette keeps the power of survivors at what it was
+ * before the way here: absorption on the way counts too. */
+static bool bounce(const photon_path *path, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
+                   float power_before, photon_state *photon)
+{
+    ppmi_walker *walker = path->walker;
     ppmi_bsdf_sample sample;
-    if (!ppmi_bsdf_draw(bsdf, walker->world->albedo, PPMI_LOBE_ALL, PPMI_TRANSPORT_POWER, u_lobe, u,
-                        v, &sample)) {
-        return false;
-    }
-    ppmi_vec3 next = vec3_mul(*power, sample.weight);
-    if (!vertex->medium) {
-        next = vec3_scale(next, shading_normal_factor(bsdf, vec3_neg(ray->direction), sample.wi));
-    }
-    const float survival = ppmi_roulette_survival(vec3_max_component(next) / power_before, depth,
-                                                  PPMI_ROULETTE_OF_PHOTONS);
+    if (!draw(walker, vertex, bsdf, photon->ray.direction, &sample)) return false;
+    const ppmi_vec3 next = vec3_mul(photon->power, sample.weight);
+    const float survival = ppmi_roulette_survival(vec3_max_component(next) / power_before,
+                                                  photon->depth, PPMI_ROULETTE_OF_PHOTONS);
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
-    *power = vec3_scale(next, 1.0f / survival);
-    *ray = ppmi_walk_leave(walker, vertex, &sample, power);
-    if (history) {
-        ppmi_photon_history_scatter(history, bsdf, walker->world->albedo, sample.wi,
+    photon->power = vec3_scale(next, 1.0f / survival);
+    photon->ray = ppmi_walk_leave(walker, vertex, &sample, &photon->power);
+    photon->depth++;
+    if (path->walk->tags_photons) {
+        ppmi_photon_history_scatter(&photon->history, bsdf, walker->world->albedo, sample.wi,
                                     sample.is_delta);
     }
     return true;
@@ -82,53 +96,85 @@ static ppmi_photon_tag tag_of(const ppmi_photon_history *history, uint32_t group
                              .caustic = {of_255(caustic.x), of_255(caustic.y), of_255(caustic.z)}};
 }
 
-static bool store(ppm_context *context, ppmi_photon_list *lists, uint32_t path,
-                  const ppmi_vertex *vertex, const ppmi_bsdf *bsdf, const ppmi_ray *ray,
-                  ppmi_vec3 power, ppmi_photon_tag tag)
+static bool store(const photon_path *path, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
+                  const photon_state *photon)
 {
-    const ppmi_photon photon = {
+    const ppmi_photon_walk *walk = path->walk;
+    ppmi_photon landed = {
         .position = vertex->surface.position,
-        .wi = vec3_neg(ray->direction),
-        .power = power,
+        .wi = vec3_neg(photon->ray.direction),
+        .power = arriving_power(walk->world->scene, vertex, photon->power),
         .ng = bsdf->ng,
-        .path = path,
-        .tag = tag,
+        .path = path->path,
     };
+    if (walk->tags_photons) {
+        landed.tag = tag_of(&photon->history, path->group, vertex->medium != NULL);
+    }
     const int kind = vertex->medium ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
-    return ppmi_photon_list_push(context, &lists[kind], &photon);
+    return ppmi_photon_list_push(path->context, &path->lists[kind], &landed);
 }
 
-/* Follows one photon to its end. False when memory is out. */
-static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi_walker *walker,
-                        ppmi_emission emission, uint32_t path, ppmi_photon_list *lists)
+static bool follow(const photon_path *path, photon_state photon);
+
+/* The others of those that a photon splits into. False when memory is out. */
+static bool follow_copies(const photon_path *path, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
+                          float power_before, const photon_state *photon, uint32_t count)
 {
-    ppmi_ray ray = emission.ray;
-    ppmi_vec3 power = emission.power;
-    ppmi_photon_history history = ppmi_photon_history_start();
-    const uint32_t group =
-        walk->groups ? ppmi_light_groups_of(walk->groups, walk->world->lights, emission.emitter)
-                     : 0;
-    ppmi_photon_tag tag = {0};
-    for (uint32_t depth = 0; depth < walk->max_depth; depth++) {
-        ppmi_vertex vertex;
-        if (ppmi_walk(walker, ray, PPMI_RAY_OTHER, &vertex) == PPMI_ESCAPED) return true;
-        const float power_before = vec3_max_component(power);
-        power = vec3_mul(power, vertex.transmittance);
-        if (vec3_is_black(power)) return true;
-        ppmi_bsdf bsdf;
-        ppmi_walk_bsdf(walker, &vertex, ray.direction, &bsdf);
-        if (walk->tags_photons) tag = tag_of(&history, group, vertex.medium != NULL);
-        if (depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
-            !store(context, lists, path, &vertex, &bsdf, &ray,
-                   arriving_power(walk->world->scene, &vertex, power), tag)) {
-            return false;
-        }
-        if (!bounce(walker, depth, &vertex, &bsdf, power_before, &ray, &power,
-                    walk->tags_photons ? &history : NULL)) {
-            return true;
-        }
+    ppmi_walker *walker = path->walker;
+    const ppmi_interior interior = walker->interior;
+    const float wavelength = walker->wavelength_nm;
+    for (uint32_t i = 0; i < count; i++) {
+        photon_state copy = *photon;
+        if (bounce(path, vertex, bsdf, power_before, &copy) && !follow(path, copy)) return false;
+        walker->interior = interior;
+        walker->wavelength_nm = wavelength;
     }
     return true;
+}
+
+/* Follows a photon to its end. False when memory is out. */
+static bool follow(const photon_path *path, photon_state photon)
+{
+    const ppmi_photon_walk *walk = path->walk;
+    while (photon.depth < walk->max_depth) {
+        ppmi_vertex vertex;
+        if (ppmi_walk(path->walker, photon.ray, PPMI_RAY_OTHER, &vertex) == PPMI_ESCAPED) {
+            return true;
+        }
+        const float power_before = vec3_max_component(photon.power);
+        photon.power = vec3_mul(photon.power, vertex.transmittance);
+        if (vec3_is_black(photon.power)) return true;
+        ppmi_bsdf bsdf;
+        ppmi_walk_bsdf(path->walker, &vertex, photon.ray.direction, &bsdf);
+        if (photon.depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
+            !store(path, &vertex, &bsdf, &photon)) {
+            return false;
+        }
+        const uint32_t split = ppmi_adjoint_split(&bsdf, vec3_neg(photon.ray.direction));
+        photon.power = vec3_scale(photon.power, 1.0f / (float)split);
+        if (split > 1 && !follow_copies(path, &vertex, &bsdf, power_before, &photon, split - 1)) {
+            return false;
+        }
+        if (!bounce(path, &vertex, &bsdf, power_before, &photon)) return true;
+    }
+    return true;
+}
+
+/* False when memory is out. */
+static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi_walker *walker,
+                        ppmi_emission emission, uint32_t index, ppmi_photon_list *lists)
+{
+    const ppmi_lights *lights = walk->world->lights;
+    const photon_path path = {
+        .context = context,
+        .walk = walk,
+        .walker = walker,
+        .lists = lists,
+        .path = index,
+        .group = walk->groups ? ppmi_light_groups_of(walk->groups, lights, emission.emitter) : 0};
+    return follow(&path, (photon_state){.ray = emission.ray,
+                                        .power = emission.power,
+                                        .history = ppmi_photon_history_start()});
 }
 
 /* The sequence has 2^32 points; each block of that many is scrambled anew. */

@@ -405,6 +405,18 @@ void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_v
     ppmi_bsdf_make(walker->world->albedo, &vertex->surface, &point, vec3_neg(direction), out_bsdf);
 }
 
+void ppmi_walk_bsdf_from(const ppmi_walker *walker, const ppmi_vertex *vertex,
+                         const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_bsdf *out_bsdf)
+{
+    ppmi_material_point point;
+    ppmi_material_evaluate(walker->world->scene, &vertex->surface, &point);
+    point.relative_index = vertex->relative_index;
+    if (point.relative_index > 0.0f && vec3_dot(wo, bsdf->ng) < 0.0f) {
+        point.relative_index = 1.0f / point.relative_index;
+    }
+    ppmi_bsdf_make(walker->world->albedo, &vertex->surface, &point, wo, out_bsdf);
+}
+
 /* How neighbouring rays leave. */
 __attribute__((noinline)) static void leave_with_neighbours(ppmi_walker *walker,
                                                             const ppmi_vertex *vertex,

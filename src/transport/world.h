@@ -172,6 +172,11 @@ static inline ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_v
 void ppmi_walk_bsdf(const ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_vec3 direction,
                     ppmi_bsdf *out_bsdf);
 
+/* Makes the BSDF of a surface vertex anew for another direction wo (unit, away from it), on any
+ * side; bsdf: the vertex's. */
+void ppmi_walk_bsdf_from(const ppmi_walker *walker, const ppmi_vertex *vertex,
+                         const ppmi_bsdf *bsdf, ppmi_vec3 wo, ppmi_bsdf *out_bsdf);
+
 /* Leaves a vertex in a sampled direction: into the solid or out of it, with one wavelength from
  * dispersion on. Multiplies *throughput by what the latter costs, not by the sample's weight. */
 ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,

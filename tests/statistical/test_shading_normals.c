@@ -27,8 +27,8 @@ static int close_scene(void **state)
     return 0;
 }
 
-/* Materials matter here, not radii; and photons for direct light by one method each. */
-enum { LEFT_OUT = METHODS_OF_OTHER_RADII | 1 << 5 };
+/* Left are sppm, and ppm with photons for direct light. */
+enum { LEFT_OUT = METHODS_OF_OTHER_RADII | 1 << 2 | 1 << 5 };
 
 static ppm_material_desc coloured(float r, float g, float b, float metallic, float roughness)
 {
@@ -75,15 +75,15 @@ static void add_leaning_quad(ppm_material_id material, ppmi_vec3 origin, ppmi_ve
     shape_place(test.scene, shape_mesh(test.scene, &primitive));
 }
 
-static void agree_in_box(double bias)
+static void agree_in_box(uint64_t photons, double resolution)
 {
     const method_comparison how = {.width = 60,
-                                   .path_passes = 64,
+                                   .path_passes = 32,
                                    .passes = 8,
-                                   .photons = 20000,
+                                   .photons = photons,
                                    .radius_m = 0.02f,
-                                   .bias = bias,
-                                   .resolution = 0.03,
+                                   .bias = 0.01,
+                                   .resolution = resolution,
                                    .seeds = 8,
                                    .left_out = LEFT_OUT};
     methods_agree(test.scene, &how);
@@ -105,7 +105,24 @@ static void matte_walls_lean_by_12_degrees(void **state)
     (void)state;
     const ppm_material_desc desc = coloured(0.8f, 0.6f, 0.7f, 0.0f, 1.0f);
     lean_everywhere(&desc, 0.21f);
-    agree_in_box(0.01);
+    agree_in_box(20000, 0.03);
+}
+
+static void matte_walls_lean_by_45_degrees(void **state)
+{
+    (void)state;
+    ppm_material_desc desc = coloured(0.8f, 0.6f, 0.7f, 0.0f, 1.0f);
+    desc.specular = 0.0f;
+    lean_everywhere(&desc, 0.785f);
+    agree_in_box(20000, 0.03);
+}
+
+static void rough_metal_leans_by_30_degrees(void **state)
+{
+    (void)state;
+    const ppm_material_desc desc = coloured(0.9f, 0.7f, 0.5f, 1.0f, 0.6f);
+    lean_everywhere(&desc, 0.52f);
+    agree_in_box(40000, 0.05);
 }
 
 static void a_coarse_smooth_ball_under_a_sky(void **state)
@@ -136,6 +153,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(a_coarse_smooth_ball_under_a_sky),
         WITH_SCENE(matte_walls_lean_by_12_degrees),
+        WITH_SCENE(matte_walls_lean_by_45_degrees),
+        WITH_SCENE(rough_metal_leans_by_30_degrees),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
