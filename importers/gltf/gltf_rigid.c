@@ -37,7 +37,7 @@ const char *ppmi_gltf_rigid_transform(const double world[16], bool has_direction
         cross(back, right, up);
     }
     for (int i = 0; i < 3; ++i) {
-        if (!(fabs(world[12 + i]) < 1e30)) return "it is too far away";
+        if (!(fabs(world[12 + i]) < 1e15)) return "it is further away than 1e15 m";
         out[i] = (float)right[i];
         out[4 + i] = (float)up[i];
         out[8 + i] = (float)back[i];

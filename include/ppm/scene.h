@@ -372,8 +372,8 @@ PPM_API const char *ppm_scene_camera_name(const ppm_scene *scene, ppm_camera_id 
 PPM_API ppm_status ppm_scene_camera_transform(const ppm_scene *scene, ppm_camera_id id,
                                               float out_transform[16]);
 /* Adds a camera that shows the whole scene from a three-quarter view (from the right, the front
- * and above), for the given aspect (width / height): all that is visible; where nothing is, all that
- * is hidden; in a scene without instances a cube of 2 m around the origin. */
+ * and above), for the given aspect (width / height): all that is visible; where nothing is, all
+ * that is hidden; in a scene without instances a cube of 2 m around the origin. */
 PPM_API ppm_status ppm_scene_add_framing_camera(ppm_scene *scene, float aspect,
                                                 ppm_camera_id *out_id);
 /* Replaces a camera, as the calls under "changes between frames" do. */

@@ -12,6 +12,16 @@ const char *ppmi_accel_version(void)
         RTC_VERSION_MINOR) "." PPMI_STRINGIZE(RTC_VERSION_PATCH);
 }
 
+/* Embree asserts that rays are within what it takes (FLT_LARGE, 1.8e18), in the world and where a
+ * mesh was modelled. What ppmi_scene_freeze leaves keeps the latter; this the former, also for
+ * directions of what overflowed on the way. */
+static bool is_within_reach(const ppmi_ray *ray)
+{
+    const float most = 1e18f;
+    return vec3_max_abs(ray->origin) < most && vec3_max_abs(ray->direction) < most &&
+           ray->t_max >= 0.0f && vec3_is_finite(ray->origin) && vec3_is_finite(ray->direction);
+}
+
 static struct RTCRay embree_ray(const ppmi_ray *ray)
 {
     return (struct RTCRay){
@@ -49,6 +59,7 @@ static inline void load_hit(const ppmi_accel *accel, const struct RTCHit *found,
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit)
 {
     struct RTCRayHit query;
+    if (!is_within_reach(ray)) return false;
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -99,6 +110,7 @@ uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, 
                                   uint32_t max)
 {
     struct RTCRayHit query;
+    if (!is_within_reach(ray)) return 0;
     query.ray = embree_ray(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -121,6 +133,7 @@ uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, 
 
 bool ppmi_accel_occluded(const ppmi_accel *accel, const ppmi_ray *ray)
 {
+    if (!is_within_reach(ray)) return false;
     struct RTCRay query = embree_ray(ray);
 #if RTC_VERSION_MAJOR >= 4
     rtcOccluded1(accel->top, &query, NULL);

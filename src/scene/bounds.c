@@ -2,7 +2,7 @@
  *
  * A vertex and a transform that both move on straight lines between their steps keep each point
  * within the hull of the vertices at all steps under the transforms at all steps. */
-#include "scene/scene.h"
+#include "scene/instance.h"
 
 static ppmi_vec3 corner(ppmi_vec3 low, ppmi_vec3 high, uint32_t i)
 {
@@ -67,20 +67,36 @@ static void grow_by_instance(const ppm_scene *scene, const ppmi_instance *instan
         grow_at_step(mesh, &instance->motion[i], low, high);
 }
 
+bool ppmi_instance_bounds(const ppm_scene *scene, const ppmi_instance *instance, ppmi_vec3 *out_min,
+                          ppmi_vec3 *out_max)
+{
+    *out_min = vec3_splat(INFINITY);
+    *out_max = vec3_splat(-INFINITY);
+    grow_by_instance(scene, instance, out_min, out_max);
+    return out_min->x <= out_max->x;
+}
+
 ppm_status ppm_scene_instance_bounds(const ppm_scene *scene, ppm_instance_id id, float out_min[3],
                                      float out_max[3])
 {
     if (!scene || id == 0 || id > scene->instance_count || !out_min || !out_max) {
         return PPM_STATUS_INVALID_ARGUMENT;
     }
-    ppmi_vec3 low = vec3_splat(INFINITY), high = vec3_splat(-INFINITY);
-    grow_by_instance(scene, &scene->instances[id - 1], &low, &high);
-    if (low.x > high.x) return PPM_STATUS_INVALID_ARGUMENT;
+    ppmi_vec3 low, high;
+    if (!ppmi_instance_bounds(scene, &scene->instances[id - 1], &low, &high)) {
+        return PPM_STATUS_INVALID_ARGUMENT;
+    }
     vec3_store(out_min, vec3_add(low, scene->shift));
     vec3_store(out_max, vec3_add(high, scene->shift));
     return PPM_STATUS_OK;
 }
 
+bool ppmi_is_far(ppmi_vec3 p)
+{
+    return !(vec3_max_abs(p) < PPMI_FARTHEST_M) || !vec3_is_finite(p);
+}
+
+/* Without what is too far away: it will be left out. */
 static bool bounds_of(const ppm_scene *scene, bool is_with_hidden, ppmi_vec3 *out_min,
                       ppmi_vec3 *out_max)
 {
@@ -88,9 +104,12 @@ static bool bounds_of(const ppm_scene *scene, bool is_with_hidden, ppmi_vec3 *ou
     *out_max = vec3_splat(-INFINITY);
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const ppmi_instance *instance = &scene->instances[i];
-        if (is_with_hidden || ppmi_instance_is_there(instance)) {
-            grow_by_instance(scene, instance, out_min, out_max);
-        }
+        ppmi_vec3 low, high;
+        if (!is_with_hidden && !ppmi_instance_is_there(instance)) continue;
+        if (!ppmi_instance_bounds(scene, instance, &low, &high)) continue;
+        if (ppmi_is_far(low) || ppmi_is_far(high)) continue;
+        grow(low, out_min, out_max);
+        grow(high, out_min, out_max);
     }
     return out_min->x <= out_max->x;
 }

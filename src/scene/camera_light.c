@@ -12,7 +12,7 @@ static ppm_status fail_memory(ppm_scene *scene)
  * and a light shines along -z. False for singular transforms. */
 static bool unit_axes(const ppmi_transform *m, ppmi_vec3 *right, ppmi_vec3 *up, ppmi_vec3 *back)
 {
-    if (!ppmi_transform_is_finite(m)) return false;
+    if (!ppmi_transform_is_finite(m) || vec3_max_abs(m->origin) > PPMI_FARTHEST_M) return false;
     *back = vec3_normalize(m->z);
     *right = vec3_normalize(vec3_cross(m->y, *back));
     *up = vec3_cross(*back, *right);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "scene/regular.h"
+
 static float longest_column(const ppmi_transform *m)
 {
     return ppmi_max(vec3_length(m->x), ppmi_max(vec3_length(m->y), vec3_length(m->z)));
@@ -48,30 +50,73 @@ static bool is_at_rest(const float *matrices, uint32_t steps)
     return true;
 }
 
+/* Steps at which there is nothing to see (a scale that grows from 0) get the nearest step's matrix,
+ * as small as single precision can undo it. False where there is nothing to see at any. */
+static bool make_all_regular(ppmi_transform *steps, bool *is_seen, uint32_t count)
+{
+    const float smallest = 1e-6f;
+    uint32_t first = count;
+    for (uint32_t i = 0; i < count; i++) {
+        is_seen[i] = ppmi_make_regular(&steps[i]);
+        if (is_seen[i] && first == count) first = i;
+    }
+    if (first == count) return false;
+    for (uint32_t i = 0, nearest = first; i < count; i++) {
+        if (is_seen[i]) nearest = i;
+        if (is_seen[i]) continue;
+        steps[i].x = vec3_scale(steps[nearest].x, smallest);
+        steps[i].y = vec3_scale(steps[nearest].y, smallest);
+        steps[i].z = vec3_scale(steps[nearest].z, smallest);
+    }
+    return true;
+}
+
+/* Between steps matrices are interpolated, and a ray is taken back by the inverse of what comes
+ * out: a way through a flat matrix has none. */
+static bool can_move(const ppmi_transform *steps, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++) {
+        if (!ppmi_stays_regular(&steps[i - 1], &steps[i])) return false;
+    }
+    return true;
+}
+
+static void say_no_motion(ppm_scene *scene, const char *name)
+{
+    ppmi_log(scene->context, PPM_LOG_WARNING,
+             "node '%s': turns over or passes through a flat shape between two motion steps; it is "
+             "shown without blur, as it is when the shutter opens (--motion-steps N)",
+             name);
+}
+
 /* Fills in where the instance is, in place of where it was. Checked before; false when memory is
  * out, with nothing changed. */
-static bool place(ppm_scene *scene, const ppm_instance_desc *desc, ppmi_instance *instance)
+static bool place(ppm_scene *scene, const ppm_instance_desc *desc, const char *name,
+                  ppmi_instance *instance)
 {
     uint32_t steps;
+    bool is_seen[PPM_MAX_MOTION_STEPS];
     const float *matrices = matrices_of(desc, &steps);
     if (is_at_rest(matrices, steps)) steps = 1;
-    ppmi_transform *motion = NULL;
-    if (steps > 1) {
-        motion = ppmi_alloc(scene->context, 2 * (size_t)steps, sizeof *motion);
-        if (!motion) return false;
+    ppmi_transform *motion = ppmi_alloc(scene->context, 2 * (size_t)steps, sizeof *motion);
+    if (!motion) return false;
+    for (uint32_t i = 0; i < steps; i++)
+        motion[i] = ppmi_transform_load(matrices + 16 * (size_t)i);
+    instance->is_singular = !make_all_regular(motion, is_seen, steps);
+    if (!instance->is_singular && !can_move(motion, steps)) {
+        say_no_motion(scene, name);
+        steps = 1;
     }
     instance->scale = 0.0f;
-    instance->is_singular = true;
     for (uint32_t i = 0; i < steps; i++) {
-        const ppmi_transform m = ppmi_transform_load(matrices + 16 * (size_t)i);
-        instance->scale = ppmi_max(instance->scale, longest_column(&m));
-        if (fabsf(ppmi_transform_determinant(&m)) > 0.0f) instance->is_singular = false;
-        if (motion) motion[i] = motion[steps + i] = m;
+        instance->scale = ppmi_max(instance->scale, longest_column(&motion[i]));
+        motion[steps + i] = motion[i];
     }
     ppmi_free(scene->context, instance->motion);
-    instance->motion = motion;
+    instance->motion = steps > 1 ? motion : NULL;
     instance->motion_steps = steps;
-    instance->to_world = ppmi_transform_load(matrices);
+    instance->to_world = motion[0];
+    if (steps == 1) ppmi_free(scene->context, motion);
     instance->given_origin = instance->to_world.origin;
     instance->normals = ppmi_transform_normals(&instance->to_world);
     instance->is_mirrored = ppmi_transform_determinant(&instance->to_world) < 0.0f;
@@ -120,11 +165,12 @@ ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *des
     if (!instances) return PPM_STATUS_OUT_OF_MEMORY;
     scene->instances = instances;
     ppmi_instance *instance = &instances[scene->instance_count];
-    if (!place(scene, desc, instance)) return fail_memory(scene);
+    if (!place(scene, desc, name, instance)) return fail_memory(scene);
     if (instance->is_singular) {
         ppmi_free(scene->context, instance->motion);
         ppmi_log(scene->context, PPM_LOG_WARNING,
-                 "node '%s': its scale is zero along an axis; left out", name);
+                 "node '%s': its scale is zero along two axes: there is nothing to see; left out",
+                 name);
         *out_id = 0;
         return PPM_STATUS_OK;
     }
@@ -173,7 +219,7 @@ ppm_status ppm_scene_set_instance(ppm_scene *scene, ppm_instance_id id,
     if (!desc || desc->size < sizeof *desc) return PPM_STATUS_INVALID_ARGUMENT;
     status = check_transforms(scene, desc, instance->name);
     if (status != PPM_STATUS_OK) return status;
-    return place(scene, desc, instance) ? PPM_STATUS_OK : fail_memory(scene);
+    return place(scene, desc, instance->name, instance) ? PPM_STATUS_OK : fail_memory(scene);
 }
 
 ppm_status ppm_scene_set_instance_visible(ppm_scene *scene, ppm_instance_id id, uint32_t is_visible)

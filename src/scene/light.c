@@ -146,7 +146,7 @@ static const char *light_fault(const ppm_scene *scene, const ppm_light_desc *des
 /* The axes of a transform as an orthonormal frame; scale and shear are dropped. */
 static bool unit_axes(const ppmi_transform *m, ppmi_vec3 *right, ppmi_vec3 *up, ppmi_vec3 *back)
 {
-    if (!ppmi_transform_is_finite(m)) return false;
+    if (!ppmi_transform_is_finite(m) || vec3_max_abs(m->origin) > PPMI_FARTHEST_M) return false;
     *back = vec3_normalize(m->z);
     *right = vec3_normalize(vec3_cross(m->y, *back));
     *up = vec3_cross(*back, *right);

@@ -38,6 +38,9 @@ typedef struct ppmi_image {
     void *mip_pixels;       /* of all of them */
 } ppmi_image;
 
+/* Coordinates are below it: their squares stay far within single precision's range. */
+#define PPMI_FARTHEST_M 1e15f
+
 /* What fills the space between surfaces, homogeneous; all 0: nothing. */
 typedef struct ppmi_medium {
     ppmi_vec3 sigma_s, sigma_a; /* scattering and absorption coefficients, 1/m */
@@ -96,7 +99,8 @@ typedef struct ppmi_instance {
     float scale;             /* longest column of to_world at any step: how much it enlarges */
     bool is_mirrored;        /* to_world has a negative determinant: the winding is reversed */
     bool is_hidden;          /* by the caller */
-    bool is_singular;        /* flat at all steps: there is nothing to see */
+    bool is_singular;        /* a line or a point at all steps: nothing to see */
+    bool is_beyond;          /* of what single precision can trace; while a session lasts */
     bool is_catcher;
     bool is_left_out;       /* while catchers are shown alone */
     uint32_t motion_steps;  /* 1: at rest */
@@ -109,7 +113,8 @@ typedef struct ppmi_instance {
 /* Whether rays can meet the instance. */
 static inline bool ppmi_instance_is_there(const ppmi_instance *instance)
 {
-    return !instance->is_hidden && !instance->is_singular && !instance->is_left_out;
+    return !instance->is_hidden && !instance->is_singular && !instance->is_beyond &&
+           !instance->is_left_out;
 }
 
 /* Where a camera stands and how it is turned: orthonormal. */
@@ -203,9 +208,10 @@ struct ppm_scene {
     bool is_frozen;
 };
 
-/* Ends building for the time of a session. A scene that lies far from the origin for its size (a
- * georeferenced site) is moved there first: floats are finest at zero. What the public API tells of
- * positions stays as it was. */
+/* Ends building for the time of a session. Instances that single precision cannot trace, since they
+ * lie beyond PPMI_FARTHEST_M or are too small for where they stand, are left out with a warning. A
+ * scene that lies far from the origin for its size (a georeferenced site) is moved there first:
+ * floats are finest at zero. What the public API tells of positions stays as it was. */
 void ppmi_scene_freeze(ppm_scene *scene);
 
 /* The end of a session: once for each freeze. The last one opens the scene for changes: all is
@@ -216,17 +222,17 @@ void ppmi_scene_thaw(ppm_scene *scene);
 bool ppmi_scene_moves(const ppm_scene *scene);
 
 /* World bounds of all instances that are there, over the whole shutter, in the positions as they
- * are kept; false when there is nothing. */
+ * are kept, but for those too far away to be traced; false when there is nothing. */
 bool ppmi_scene_bounds(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
 /* The same of all instances, hidden ones too. */
 bool ppmi_scene_bounds_of_all(const ppm_scene *scene, ppmi_vec3 *out_min, ppmi_vec3 *out_max);
 
 /* Whether there is anything that is meant to light the scene, though it may be off or hidden now: a
- * frame in which the lamps go out is dark. An environment, a punctual light, or an emissive material
- * in use that has no texture or is brighter than 1 nit. Emissive textures within
- * 0 .. 1 are decoration (a display, a glowing logo): files that have nothing else were made for
- * viewers that bring their own light. */
+ * frame in which the lamps go out is dark. An environment, a punctual light, or an emissive
+ * material in use that has no texture or is brighter than 1 nit. Emissive textures within 0 .. 1
+ * are decoration (a display, a glowing logo): files that have nothing else were made for viewers
+ * that bring their own light. */
 bool ppmi_scene_has_light(const ppm_scene *scene);
 
 /* Takes ownership of decoded pixels (u8 or f32 made by ppmi_alloc); on failure the caller keeps

@@ -292,18 +292,18 @@ static void hidden_instances_are_not_there(void **state)
     assert_true(differing > 3);
 }
 
-static void a_flat_instance_is_gone_until_it_has_a_volume(void **state)
+static void an_instance_that_is_a_line_is_gone_until_it_has_an_area(void **state)
 {
     (void)state;
     build(test.scene, &first_frame);
     build(other.scene, &first_frame);
-    ppm_instance_desc flat = moved_to(vec3_add(place, first_frame.box));
-    flat.transform[5] = 0.0f;
-    assert_int_equal(ppm_scene_set_instance(test.scene, 2, &flat), PPM_STATUS_OK);
+    ppm_instance_desc line = moved_to(vec3_add(place, first_frame.box));
+    line.transform[0] = line.transform[5] = 0.0f;
+    assert_int_equal(ppm_scene_set_instance(test.scene, 2, &line), PPM_STATUS_OK);
     assert_int_equal(ppm_scene_set_instance_visible(other.scene, 2, 0), PPM_STATUS_OK);
     assert_same_picture(test.scene, other.scene);
-    flat.transform[5] = 1.0f;
-    assert_int_equal(ppm_scene_set_instance(test.scene, 2, &flat), PPM_STATUS_OK);
+    line.transform[0] = line.transform[5] = 1.0f;
+    assert_int_equal(ppm_scene_set_instance(test.scene, 2, &line), PPM_STATUS_OK);
     assert_int_equal(ppm_scene_set_instance_visible(other.scene, 2, 1), PPM_STATUS_OK);
     assert_same_picture(test.scene, other.scene);
 }
@@ -370,7 +370,7 @@ int main(void)
         WITH_SCENES(a_changed_scene_renders_as_a_new_one),
         WITH_SCENES(what_a_far_scene_tells_is_exact_after_many_sessions),
         WITH_SCENES(hidden_instances_are_not_there),
-        WITH_SCENES(a_flat_instance_is_gone_until_it_has_a_volume),
+        WITH_SCENES(an_instance_that_is_a_line_is_gone_until_it_has_an_area),
         WITH_SCENES(triangles_without_area_come_back_with_new_vertices),
         WITH_SCENES(names_outlive_changes),
         WITH_SCENES(assumed_light_is_gone_with_the_session),
