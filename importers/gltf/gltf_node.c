@@ -370,6 +370,7 @@ ppm_status ppmi_gltf_import_nodes(ppmi_gltf_reader *reader)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_animations_check_name(reader);
     if (status == PPM_STATUS_OK) status = walk_nodes(reader);
     if (status == PPM_STATUS_OK) ppmi_gltf_belong_find(reader);
+    if (status == PPM_STATUS_OK) status = ppmi_gltf_pose_choose_origin(reader);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_pose_take(reader, &reader->options->pose);
     return status == PPM_STATUS_OK ? emit_nodes(reader) : status;
 }

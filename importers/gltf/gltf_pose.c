@@ -131,8 +131,69 @@ static void place_all(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, d
             ppmi_gltf_matrix_multiply(worlds[parent], local, worlds[node]);
         } else {
             memcpy(worlds[node], local, sizeof local);
+            for (int i = 0; i < 3; ++i) {
+                worlds[node][12 + i] -= p->origin_m[i];
+            }
         }
     }
+}
+
+/* ---- the origin ------------------------------------------------------------------------------ */
+
+/* Where a node's mesh is, at rest. */
+static const double *place_of_mesh(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p,
+                                   int32_t index)
+{
+    const ppmi_gltf_document *d = reader->document;
+    const ppmi_gltf_node *node = &d->nodes[index];
+    if (node->mesh < 0) return NULL;
+    if (node->skin < 0) return p->middle[index] + 12;
+    if ((size_t)node->skin >= d->skin_count || d->skins[node->skin].joint_count == 0) return NULL;
+    const int32_t joint = d->skins[node->skin].joints[0];
+    const bool is_there =
+        joint >= 0 && (size_t)joint < d->node_count && p->parents[joint] != NOT_IN_SCENE;
+    return is_there ? p->middle[joint] + 12 : NULL;
+}
+
+/* The middle of the places of all meshes; false when there are none. */
+static bool find_middle(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, double middle[3],
+                        double *out_size)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t k = 0; k < p->order_count; ++k) {
+        const double *at = place_of_mesh(reader, p, p->order[k]);
+        for (int i = 0; at && i < 3; ++i) {
+            low[i] = fmin(low[i], at[i]);
+            high[i] = fmax(high[i], at[i]);
+        }
+    }
+    *out_size = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        middle[i] = nearbyint(0.5 * (low[i] + high[i]));
+        *out_size = fmax(*out_size, high[i] - low[i]);
+    }
+    return low[0] <= high[0];
+}
+
+ppm_status ppmi_gltf_pose_choose_origin(ppmi_gltf_reader *reader)
+{
+    const double near_m = 1000.0, far_in_sizes = 8.0;
+    ppmi_gltf_pose *p = reader->pose;
+    double middle[3], size;
+    ppm_scene_info info = {.size = sizeof info};
+    const ppm_status status = ppm_scene_get_info(reader->scene, &info);
+    if (status != PPM_STATUS_OK) return status;
+    ppm_scene_get_origin(reader->scene, p->origin_m);
+    if (info.instances + info.cameras + info.lights > 0) return PPM_STATUS_OK;
+    place_all(reader, p, p->middle);
+    if (!find_middle(reader, p, middle, &size)) return PPM_STATUS_OK;
+    const double far = fmax(fabs(middle[0]), fmax(fabs(middle[1]), fabs(middle[2])));
+    if (!(far > fmax(near_m, far_in_sizes * size)) || !(far < 1e15)) return PPM_STATUS_OK;
+    memcpy(p->origin_m, middle, sizeof middle);
+    ppmi_log(reader->context, PPM_LOG_INFO,
+             "%s: lies around %.0f %.0f %.0f m, which is the point 0 of the scene", reader->path,
+             middle[0], middle[1], middle[2]);
+    return ppm_scene_set_origin(reader->scene, middle);
 }
 
 /* ---- how many samples are needed ------------------------------------------------------------- */

@@ -17,6 +17,8 @@ typedef struct ppmi_gltf_pose {
     size_t *first_weight; /* node_count + 1: where a node's weights are among all of them */
     double *weights;      /* of morph targets, now */
 
+    double origin_m[3]; /* of the scene, in the file's coordinates: subtracted from the worlds */
+
     uint32_t sample_count;     /* 1: nothing is blurred */
     double (*worlds)[16];      /* sample_count * node_count: local to world */
     double *sampled_weights;   /* sample_count * first_weight[node_count] */
@@ -31,6 +33,12 @@ typedef struct ppmi_gltf_pose {
 /* Allocates for the document's nodes, with order empty, and parents -2. */
 ppm_status ppmi_gltf_pose_create(ppmi_gltf_reader *reader);
 void ppmi_gltf_pose_destroy(ppm_context *context, ppmi_gltf_pose *pose);
+
+/* Of a file that lies far away for its size (a georeferenced site), takes its middle at rest as the
+ * point 0 of the scene, where nothing has been added to it yet; order has to be there. So
+ * transforms are composed in the file's own coordinates, in double precision, and rounded near 0.
+ */
+ppm_status ppmi_gltf_pose_choose_origin(ppmi_gltf_reader *reader);
 
 /* Evaluates the animations at the times of when. Afterwards the document's values are those at the
  * middle of the shutter. */

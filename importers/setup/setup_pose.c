@@ -24,6 +24,14 @@ static bool normalize(double v[3])
     return true;
 }
 
+/* A place in the file's coordinates, in those of the scene. */
+static void to_scene(const ppmi_setup_value *object, const double place[3], double out[3])
+{
+    ppm_scene_get_origin(object->setup->scene, out);
+    for (int i = 0; i < 3; i++)
+        out[i] = place[i] - out[i];
+}
+
 static void store_matrix(const double right[3], const double up[3], const double back[3],
                          const double origin[3], float out[16])
 {
@@ -53,7 +61,9 @@ static ppm_status look_along(const ppmi_setup_value *object, const ppmi_setup_po
         return ppmi_setup_fail(object, "\"up\" is zero or along the direction; expected another");
     }
     cross(back, right, up);
-    store_matrix(right, up, back, pose->position, out);
+    double position[3];
+    to_scene(object, pose->position, position);
+    store_matrix(right, up, back, position, out);
     return PPM_STATUS_OK;
 }
 
@@ -67,8 +77,10 @@ static ppm_status take_matrix(const ppmi_setup_value *object, const ppmi_setup_p
                                "expected 0 0 0 1: columns come one after the other",
                                m[3], m[7], m[11], m[15]);
     }
+    double place[3];
+    to_scene(object, m + 12, place);
     for (int i = 0; i < 16; i++)
-        out[i] = (float)m[i];
+        out[i] = (float)(i >= 12 && i < 15 ? place[i - 12] : m[i]);
     return PPM_STATUS_OK;
 }
 

@@ -293,6 +293,14 @@ typedef struct ppm_instance_desc {
     uint32_t is_catcher;     /* non-zero: as ppm_scene_set_instance_catcher */
 } ppm_instance_desc;
 
+/* Where the point 0 of all that is added lies in the coordinates of the file that it comes from: of
+ * a georeferenced site, whose coordinates single precision would round to a coarse grid. Importers
+ * set it by themselves; the position layer and setup files count from the file's point 0. 0 0 0 by
+ * default. Set returns OK, INVALID_ARGUMENT (not finite), WRONG_STATE (something has been added
+ * that has a place). */
+PPM_API ppm_status ppm_scene_set_origin(ppm_scene *scene, const double origin_m[3]);
+PPM_API void ppm_scene_get_origin(const ppm_scene *scene, double out_origin_m[3]);
+
 /* Returns OK, INVALID_ARGUMENT (unknown mesh, a transform that is not finite), OUT_OF_MEMORY,
  * WRONG_STATE. A singular transform is dropped with a warning; *out_id is then 0. */
 PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,

@@ -77,13 +77,23 @@ static void store_nothing(const ppmi_facts *facts, size_t pixel)
     if (depth) *depth = PPMI_FAR_DEPTH_M;
 }
 
+/* In the coordinates of the file. */
+static void store_position(const ppm_scene *scene, ppmi_vec3 position, float out[3])
+{
+    float shift[3];
+    vec3_store(out, position);
+    vec3_store(shift, scene->shift);
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)((double)out[i] + (double)shift[i] + scene->origin_m[i]);
+}
+
 static void store(const ppmi_job *job, const ppmi_facts *facts, size_t pixel,
                   const ppmi_camera_view *view, const ppmi_vertex *vertex)
 {
     const ppm_scene *scene = job->world.scene;
     const ppmi_surface *surface = &vertex->surface;
     float *value = place_of(facts, PPM_LAYER_POSITION, pixel);
-    if (value) vec3_store(value, vec3_add(surface->position, scene->shift));
+    if (value) store_position(scene, surface->position, value);
     value = place_of(facts, PPM_LAYER_DEPTH, pixel);
     if (value) *value = vec3_dot(vec3_sub(surface->position, view->origin), view->forward);
     value = place_of(facts, PPM_LAYER_UV, pixel);

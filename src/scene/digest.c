@@ -108,6 +108,7 @@ static void add_surroundings(ppmi_digest *digest, const ppm_scene *scene)
     ADD(digest, scene->fog.sigma_a);
     ADD(digest, scene->fog.asymmetry_g);
     ADD(digest, scene->shift);
+    ADD(digest, scene->origin_m);
 }
 
 void ppmi_scene_digest(const ppm_scene *scene, ppmi_digest *digest)

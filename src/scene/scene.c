@@ -417,6 +417,29 @@ ppm_status ppm_scene_set_fog(ppm_scene *scene, const ppm_fog_desc *desc)
     return PPM_STATUS_OK;
 }
 
+ppm_status ppm_scene_set_origin(ppm_scene *scene, const double origin_m[3])
+{
+    const ppm_status status = ppmi_scene_check_open(scene);
+    if (status != PPM_STATUS_OK) return status;
+    if (!origin_m || !isfinite(origin_m[0] + origin_m[1] + origin_m[2])) {
+        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
+                         "the scene's origin is not finite");
+    }
+    if (scene->instance_count + scene->camera_count + scene->punctual_count > 0) {
+        return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
+                         "the scene's origin has to be set before anything is placed");
+    }
+    for (int i = 0; i < 3; i++)
+        scene->origin_m[i] = origin_m[i];
+    return PPM_STATUS_OK;
+}
+
+void ppm_scene_get_origin(const ppm_scene *scene, double out_origin_m[3])
+{
+    for (int i = 0; i < 3; i++)
+        out_origin_m[i] = scene ? scene->origin_m[i] : 0.0;
+}
+
 static bool is_decoration(const ppmi_material *material)
 {
     const float one = 1.00001f; /* a working space rounds */

@@ -203,6 +203,7 @@ struct ppm_scene {
     ppmi_medium fog;
     ppm_material_id default_material; /* of primitives without one; 0: not made yet */
     ppmi_vec3 shift;        /* what has been subtracted from all positions; see ppmi_scene_freeze */
+    double origin_m[3];     /* of all positions, in the file's coordinates */
     ppmi_kept accel;        /* acceleration structures of the meshes */
     uint32_t session_count; /* render sessions that keep it frozen */
     bool is_frozen;

@@ -271,12 +271,72 @@ static void hidden_nodes_show_neither_meshes_nor_lights(void **state)
     assert_int_equal(f->scene->camera_count, 1);
 }
 
+/* ---- far from the point 0 -------------------------------------------------------------------- */
+
+/* Children a centimetre apart below a turned root at 6,300 km, where floats are half a metre apart:
+ * meshes, the camera and the lamp stand to each other as the file says, and the origin says where.
+ */
+static void a_far_site_is_as_fine_as_one_at_the_origin(void **state)
+{
+    gltf_fixture *f = *state;
+    double origin[3];
+    assert_gltf_status(
+        f,
+        gltf_import(
+            f,
+            "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_lights_punctual'],"
+            "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point'}]}},"
+            "'scenes':[{'nodes':[0]}],'nodes':["
+            "{'children':[1,2,3,4],'rotation':[0,0.6,0,0.8],"
+            "'translation':[3133805.3125,5447440.5625,-992858.6875]},"
+            "{'mesh':0},{'mesh':0,'translation':[0.01,0,0]},"
+            "{'camera':0,'translation':[0,0.25,0]},"
+            "{'translation':[0,0.5,0],'extensions':{'KHR_lights_punctual':{'light':0}}}],"
+            "'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':1}}]," GLTF_TRIANGLE
+            "}"),
+        PPM_STATUS_OK);
+    ppm_scene_get_origin(f->scene, origin);
+    assert_float_equal(origin[0], 3133805.0, 0.0);
+    assert_float_equal(origin[1], 5447441.0, 0.0);
+    assert_float_equal(origin[2], -992859.0, 0.0);
+    assert_place(f, 0, vec3(0, 0, 0), vec3(0.3125f, -0.4375f, 0.3125f));
+    /* turned by 2 acos(0.8) about Y */
+    assert_place(f, 1, vec3(0, 0, 0), vec3(0.3125f + 0.0028f, -0.4375f, 0.3125f - 0.0096f));
+    const ppmi_vec3 eye = f->scene->cameras[0].origin, lamp = f->scene->punctuals[0].position;
+    assert_float_equal((double)eye.y, -0.1875, 1e-7);
+    assert_float_equal((double)lamp.y, 0.0625, 1e-7);
+    assert_gltf_logged(f, 'I', "which is the point 0 of the scene");
+}
+
+/* A second file of the scene counts from the same point, and a near site from its own. */
+static void the_origin_is_that_of_the_first_file(void **state)
+{
+    gltf_fixture *f = *state;
+    double origin[3];
+    static const char *const format =
+        "{" GLTF_HEAD "'nodes':[{'mesh':0,'translation':[%s,0,0]}]," GLTF_TRIANGLE "}";
+    assert_gltf_status(f, gltf_importf(f, format, "900"), PPM_STATUS_OK);
+    ppm_scene_get_origin(f->scene, origin);
+    assert_float_equal(origin[0], 0.0, 0.0);
+    assert_gltf_status(f, gltf_importf(f, format, "500000"), PPM_STATUS_OK);
+    assert_place(f, 1, vec3(0, 0, 0), vec3(500000, 0, 0));
+    gltf_reset(f);
+    assert_gltf_status(f, gltf_importf(f, format, "500000"), PPM_STATUS_OK);
+    assert_gltf_status(f, gltf_importf(f, format, "900"), PPM_STATUS_OK);
+    ppm_scene_get_origin(f->scene, origin);
+    assert_float_equal(origin[0], 500000.0, 0.0);
+    assert_place(f, 1, vec3(0, 0, 0), vec3(900 - 500000, 0, 0));
+    assert_int_equal(ppm_scene_set_origin(f->scene, origin), PPM_STATUS_WRONG_STATE);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(translation_rotation_and_scale_apply_in_that_order),
+        TEST(a_far_site_is_as_fine_as_one_at_the_origin),
+        TEST(the_origin_is_that_of_the_first_file),
         TEST(matrices_are_column_major),
         TEST(matrices_that_are_not_affine_are_refused),
         TEST(children_are_placed_in_their_parents),

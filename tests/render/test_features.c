@@ -123,13 +123,16 @@ static void nothing_is_far_and_of_no_number(void **state)
 }
 
 /* By the ray through the pixel's centre that the test makes itself; the second time far from the
- * origin, where the scene is moved for the session. */
+ * origin, where the scene is moved for the session, the third time with an origin elsewhere. */
 static void positions_are_those_of_the_world(void **state)
 {
     (void)state;
-    for (int i = 0; i < 2; i++) {
-        const ppmi_vec3 at = i == 0 ? vec3_splat(0.0f) : vec3(4e5f, 1e3f, -2e5f);
+    const double origin[3] = {1024.0, 2048.0, -512.0};
+    for (int i = 0; i < 3; i++) {
+        const ppmi_vec3 at = i != 1 ? vec3_splat(0.0f) : vec3(4e5f, 1e3f, -2e5f);
+        const ppmi_vec3 file = i != 2 ? vec3_splat(0.0f) : vec3(1024.0f, 2048.0f, -512.0f);
         reopen();
+        if (i == 2) assert_int_equal(ppm_scene_set_origin(test.scene, origin), PPM_STATUS_OK);
         add_sky();
         layers_add_quad(test.scene, "wall", material_lambert(test.scene, 0.5f),
                         vec3_add(at, vec3(-10, -10, 0)), vec3(20, 0, 0), vec3(0, 20, 0));
@@ -139,7 +142,10 @@ static void positions_are_those_of_the_world(void **state)
             const ppmi_vec2 centre = centre_of(pixel);
             const float reach = 5.0f * tanf(0.5f);
             const ppmi_vec3 expected = vec3(reach * centre.x, reach * centre.y, 0);
-            assert_vector(values + 3 * pixel, vec3_add(at, expected), i == 0 ? 1e-5 : 0.04);
+            assert_vector(values + 3 * pixel, vec3_add(vec3_add(at, file), expected),
+                          i == 0   ? 1e-5
+                          : i == 1 ? 0.04
+                                   : 2e-4);
         }
         free(values);
     }

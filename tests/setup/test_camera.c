@@ -177,9 +177,34 @@ static void cameras_come_after_those_of_the_scene(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup_setup, setup_teardown)
 
+/* Of a site whose origin is elsewhere: places are subtracted in double precision. */
+static void places_count_from_the_point_0_of_the_file(void **state)
+{
+    setup_fixture *f = *state;
+    const double origin[3] = {3133805.0, 5447441.0, -992859.0};
+    ppm_scene *scene = NULL;
+    assert_int_equal(setup_open(f, "{ \"cameras\": [ "
+                                   "{ \"position\": [3133805.01, 5447441.25, -992859], "
+                                   "\"target\": [3133805.01, 5447441.25, -992860], \"fov\": 40 }, "
+                                   "{ \"matrix\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, "
+                                   "3133805, 5447441.125, -992859.02, 1], \"fov\": 40 } ] }"),
+                     PPM_STATUS_OK);
+    assert_int_equal(ppm_scene_create(f->context, NULL, &scene), PPM_STATUS_OK);
+    assert_int_equal(ppm_scene_set_origin(scene, origin), PPM_STATUS_OK);
+    assert_int_equal(ppm_setup_apply(f->setup, scene, PPM_SETUP_ALL), PPM_STATUS_OK);
+    const ppmi_vec3 first = scene->cameras[0].origin, second = scene->cameras[1].origin;
+    assert_near(first.x, 0.01, 1e-8);
+    assert_near(first.y, 0.25, 1e-8);
+    assert_near(second.y, 0.125, 1e-8);
+    assert_near(second.z, -0.02, 1e-8);
+    assert_near(scene->cameras[0].forward.z, -1.0, 1e-7);
+    ppm_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(places_count_from_the_point_0_of_the_file),
         TEST(what_does_not_go_together_is_refused),
         TEST(a_node_that_is_not_there_or_is_behind_cannot_be_focused_on),
         TEST(a_perspective_camera_is_that_of_the_calls),
