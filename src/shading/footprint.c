@@ -92,6 +92,7 @@ void ppmi_differential_refract(ppmi_differential *d, const ppmi_surface *surface
 void ppmi_differential_scatter(ppmi_differential *d, ppmi_vec3 wi, float pdf)
 {
     if (!d->is_known) return;
+    d->is_scattered = true;
     const float before = ppmi_min(vec3_length2(d->direction_dx), vec3_length2(d->direction_dy));
     const float lobe = pdf > 0.0f ? rough_share * rough_share / pdf : 0.0f;
     const float spread = sqrtf(ppmi_min(ppmi_max(before, lobe), 1.0f));

@@ -449,13 +449,29 @@ ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
     return ray;
 }
 
+/* Emission has one radiance for all ways of finding it: light sampling and photons see textures at
+ * their finest, and where a path may find it beside them it sees the same, or the weights of MIS
+ * would stand for different things. What is seen from the camera by mirrors alone is found in one
+ * way only, and is filtered over the pixel as other textures are. */
+static ppmi_vec3 emission_seen(const ppmi_walker *walker, const ppmi_surface *surface, ppmi_vec3 wo,
+                               bool is_delta)
+{
+    const ppm_scene *scene = walker->world->scene;
+    if (!walker->differential.is_known || (is_delta && !walker->differential.is_scattered)) {
+        return ppmi_surface_emission(scene, surface, wo);
+    }
+    ppmi_surface finest = *surface;
+    finest.uv_dx = finest.uv_dy = (ppmi_vec2){0.0f, 0.0f};
+    return ppmi_surface_emission(scene, &finest, wo);
+}
+
 ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *vertex,
                              ppmi_vec3 direction, const ppmi_origin *origin)
 {
     const ppmi_world *world = walker->world;
     if (!vertex->surface.material->emits) return vec3_splat(0.0f);
     const ppmi_vec3 radiance =
-        ppmi_surface_emission(world->scene, &vertex->surface, vec3_neg(direction));
+        emission_seen(walker, &vertex->surface, vec3_neg(direction), origin->is_delta);
     if (origin->is_delta || vec3_is_black(radiance)) return radiance;
     const float light_pdf = ppmi_lights_pdf_surface(world->lights, &vertex->hit, &vertex->surface,
                                                     direction, vertex->distance);
