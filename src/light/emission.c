@@ -7,8 +7,8 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, floa
                           const float u[4], ppmi_emission *emission)
 {
     ppmi_surface surface;
-    ppmi_emitter_sample(lights, e, u[0], u[1], time, &surface);
-    const float area = ppmi_emitter_area(e, &surface);
+    const float pdf = ppmi_emitter_sample(lights, e, u[0], u[1], time, &surface);
+    if (!(pdf > 0.0f)) return false;
     float side = 1.0f, u_direction = u[2];
     if (e->sides == 2) {
         side = u_direction < 0.5f ? 1.0f : -1.0f;
@@ -20,7 +20,7 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, floa
         ppmi_frame_to_world(&frame, ppmi_sample_cosine_hemisphere(u_direction, u[3])));
     emission->ray = ppmi_surface_ray(&surface, direction);
     const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, direction);
-    emission->power = vec3_scale(radiance, PPMI_PI * area * (float)e->sides);
+    emission->power = vec3_scale(radiance, PPMI_PI * (float)e->sides / pdf);
     return true;
 }
 

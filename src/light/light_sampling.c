@@ -57,19 +57,18 @@ static bool sample_triangle(const ppmi_lights *lights, const ppmi_emitter *e, pp
                             float time, float u, float v, ppmi_light_sample *sample)
 {
     ppmi_surface surface;
-    ppmi_emitter_sample(lights, e, u, v, time, &surface);
+    const float pdf = ppmi_emitter_sample(lights, e, u, v, time, &surface);
     const ppmi_vec3 to_light = vec3_sub(surface.position, position);
     const float distance2 = vec3_length2(to_light);
     if (!(distance2 > 0.0f)) return false;
     const float distance = sqrtf(distance2);
     sample->wi = vec3_scale(to_light, 1.0f / distance);
     const float cosine = fabsf(vec3_dot(sample->wi, surface.ng));
-    const float area = ppmi_emitter_area(e, &surface);
-    if (!(cosine > 1e-6f) || !(area > 0.0f)) return false;
+    if (!(cosine > 1e-6f) || !(pdf > 0.0f)) return false;
     sample->radiance = ppmi_emitter_radiance(lights, &surface, vec3_neg(sample->wi));
     const float side = vec3_dot(sample->wi, surface.ng) < 0.0f ? 1.0f : -1.0f;
     sample->target = vec3_mad(surface.position, surface.ng, side * surface.error);
-    sample->pdf *= distance2 / (cosine * area);
+    sample->pdf *= pdf * distance2 / cosine;
     return !vec3_is_black(sample->radiance);
 }
 
@@ -190,10 +189,10 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
     if (first == PPMI_NO_EMITTER) return 0.0f;
     const uint32_t i = first + hit->triangle;
     const float cosine = fabsf(vec3_dot(wi, surface->ng));
-    const float area = ppmi_emitter_area(&lights->emitters[i], surface);
-    if (!(cosine > 1e-6f) || !(area > 0.0f)) return 0.0f;
-    return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * distance *
-           distance / (cosine * area);
+    if (!(cosine > 1e-6f)) return 0.0f;
+    const float pdf = ppmi_emitter_pdf(lights, &lights->emitters[i], surface);
+    return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * pdf * distance *
+           distance / cosine;
 }
 
 bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool is_camera,

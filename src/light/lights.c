@@ -40,26 +40,9 @@ static float triangle_area(const ppm_scene *scene, const ppmi_emitter *e)
     return 0.5f * vec3_length(vec3_cross(ab, ac));
 }
 
-/* Mean emission by a few lookups, never below a share of the factor: a texture's bright spot
- * between the lookups must be able to send photons. */
-static float triangle_power(const ppmi_lights *lights, const ppmi_emitter *e)
+static float triangle_power(const ppmi_emitter *e)
 {
-    static const float points[4][2] = {
-        {1.0f / 3, 1.0f / 3}, {0.15f, 0.15f}, {0.7f, 0.15f}, {0.15f, 0.7f}};
-    const ppmi_material *material =
-        &lights->scene->materials[emitter_primitive(lights->scene, e)->material];
-    float mean = vec3_mean(vec3_load(material->desc.emission));
-    if (material->desc.emission_texture.image > 0 || material->desc.emission_takes_vertex_color) {
-        const float floor_share = 0.05f;
-        float sum = 0.0f;
-        for (int i = 0; i < 4; i++) {
-            ppmi_surface surface;
-            ppmi_emitter_surface(lights, e, points[i][0], points[i][1], 0.0f, &surface);
-            sum += vec3_mean(ppmi_surface_emission(lights->scene, &surface, surface.ng));
-        }
-        mean = mean * floor_share + 0.25f * sum;
-    }
-    return PPMI_PI * mean * e->area * (float)e->sides;
+    return PPMI_PI * e->radiance * e->area * (float)e->sides;
 }
 
 /* Of a spot with a profile: by the profile's mean, since its peak may lie in the cone. */
@@ -102,7 +85,7 @@ static float emitter_power(const ppmi_lights *lights, const ppmi_emitter *e)
     float power;
     switch (e->kind) {
     case PPMI_EMITTER_TRIANGLE:
-        power = triangle_power(lights, e);
+        power = triangle_power(e);
         break;
     case PPMI_EMITTER_PUNCTUAL:
     case PPMI_EMITTER_LAMP:
@@ -154,7 +137,8 @@ static void add_triangles(ppmi_lights *lights, uint32_t instance, uint32_t primi
                             .triangle = t,
                             .kind = PPMI_EMITTER_TRIANGLE,
                             .sides = both ? 2 : 1,
-                            .has_own_area = is_round || moves};
+                            .has_own_area = is_round || moves,
+                            .glow = PPMI_GLOW_EVEN};
         e->area = e->has_own_area ? area_over_shutter(lights, e) : triangle_area(lights->scene, e);
     }
 }
@@ -263,7 +247,8 @@ static ppm_status build(ppmi_lights *lights)
         return ppmi_fail(lights->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: lights");
     }
     add_emitters(lights);
-    return build_tables(lights);
+    const ppm_status status = ppmi_lights_build_glow(lights);
+    return status == PPM_STATUS_OK ? build_tables(lights) : status;
 }
 
 static ppm_status build_profiles(ppmi_lights *lights)
@@ -311,6 +296,7 @@ void ppmi_lights_destroy(ppmi_lights *lights)
     ppmi_alias_deinit(context, &lights->near_lights);
     ppmi_alias_deinit(context, &lights->directionals);
     ppmi_free(context, lights->emitters);
+    ppmi_glow_deinit(context, &lights->glow);
     for (uint32_t i = 0; lights->profiles && i < lights->scene->profile_count; i++) {
         ppmi_profile_table_deinit(context, &lights->profiles[i]);
     }

@@ -3,6 +3,7 @@
 #define PPMI_LIGHT_TABLES_H
 
 #include "light/extent.h"
+#include "light/glow.h"
 #include "light/lamp.h"
 #include "light/lights.h"
 #include "light/sun.h"
@@ -26,6 +27,8 @@ typedef struct ppmi_emitter {
     uint8_t sides;
     bool has_own_area; /* area depends on the place or the time */
     float area;        /* world, of triangles; else about that */
+    float radiance;    /* of triangles: mean over the triangle, of all channels */
+    uint32_t glow;     /* root of the tree by which places are drawn; PPMI_GLOW_EVEN */
 } ppmi_emitter;
 
 struct ppmi_lights {
@@ -40,6 +43,7 @@ struct ppmi_lights {
     ppmi_alias by_power;     /* all emitters, for photons */
     ppmi_alias near_lights;  /* the first near_count emitters, for light sampling: by power */
     ppmi_alias directionals; /* the next directional_count: by illuminance */
+    ppmi_glow glow;          /* places on triangles whose emission varies */
     uint32_t triangle_count, near_count, directional_count;
     ppmi_sun *suns; /* the directional lights that have a size */
     uint32_t sun_count;
@@ -66,24 +70,46 @@ static inline void ppmi_emitter_surface(const ppmi_lights *lights, const ppmi_em
     ppmi_surface_from_hit(lights->scene, &hit, out_surface);
 }
 
-/* 1 over the density by area of a place that is drawn. */
-static inline float ppmi_emitter_area(const ppmi_emitter *e, const ppmi_surface *surface)
-{
-    return e->has_own_area ? ppmi_surface_area(surface) : e->area;
-}
-
 /* An even place of an emitter that moves or is round. */
 ppmi_vec2 ppmi_emitter_place(const ppmi_lights *lights, const ppmi_emitter *e, float u, float v,
                              float time);
 
-/* Draws a place. */
-static inline void ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u,
-                                       float v, float time, ppmi_surface *out_surface)
+/* The density by area of a place that is drawn, by density: what it is by that of even ones. */
+static inline float ppmi_emitter_by_area(const ppmi_emitter *e, const ppmi_surface *surface,
+                                         float density)
 {
-    const ppmi_vec2 at =
-        e->has_own_area ? ppmi_emitter_place(lights, e, u, v, time) : ppmi_sample_triangle(u, v);
-    ppmi_emitter_surface(lights, e, at.x, at.y, time, out_surface);
+    const float area = e->has_own_area ? ppmi_surface_area(surface) : e->area;
+    return area > 0.0f ? density / area : 0.0f;
 }
+
+/* Draws a place; returns its density by area, 0 where there is no area. */
+static inline float ppmi_emitter_sample(const ppmi_lights *lights, const ppmi_emitter *e, float u,
+                                        float v, float time, ppmi_surface *out_surface)
+{
+    float density = 1.0f;
+    ppmi_vec2 at;
+    if (e->glow != PPMI_GLOW_EVEN) {
+        at = ppmi_glow_sample(&lights->glow, e->glow, (double)u, (double)v, &density);
+    } else {
+        at = e->has_own_area ? ppmi_emitter_place(lights, e, u, v, time)
+                             : ppmi_sample_triangle(u, v);
+    }
+    ppmi_emitter_surface(lights, e, at.x, at.y, time, out_surface);
+    return ppmi_emitter_by_area(e, out_surface, density);
+}
+
+/* The density by area with which that draws a surface of the emitter. */
+static inline float ppmi_emitter_pdf(const ppmi_lights *lights, const ppmi_emitter *e,
+                                     const ppmi_surface *surface)
+{
+    const float density = e->glow != PPMI_GLOW_EVEN
+                              ? ppmi_glow_density(&lights->glow, e->glow, surface->u, surface->v)
+                              : 1.0f;
+    return ppmi_emitter_by_area(e, surface, density);
+}
+
+/* Fills in radiance and glow of all triangles. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_lights_build_glow(ppmi_lights *lights);
 
 /* Emission of such a surface, as far as it is opaque: rays meet a surface with alpha as often as it
  * is opaque, and see its emission then. */

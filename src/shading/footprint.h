@@ -9,8 +9,8 @@
 /* Of a ray along direction: change of its position and direction by one step in x and in y of the
  * picture. */
 typedef struct ppmi_differential {
-    bool is_known; /* false: a path of no pixel (photons), or nothing that needs it; the rest is
-                      not read then */
+    bool is_known;     /* false: a path of no pixel (photons), or nothing that needs it; the rest is
+                          not read then */
     bool is_scattered; /* the path had a rough bounce: its footprint is a lobe's, not the pixel's */
     ppmi_vec3 direction;
     ppmi_vec3 position_dx, position_dy;   /* metres */
