@@ -38,23 +38,6 @@ uint64_t ppmi_accel_builds(const ppm_scene *scene);
 /* The closest hit in (0, t_max); false when there is none. Any thread. */
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit);
 
-/* Which hits a ray passes. It is asked of hits in any order, of some that lie behind the closest
- * one, and perhaps of one twice; what it answers must depend on the hit only. All within one
- * search: no ray is begun anew behind what it passed, so that nothing is jumped over however close,
- * and any number is passed. Base of what the caller needs beside it. */
-typedef struct ppmi_hit_filter {
-    bool (*passes)(struct ppmi_hit_filter *filter, const ppmi_hit *hit);
-} ppmi_hit_filter;
-
-/* The closest hit that the filter does not pass, in (0, t_max); false when there is none. */
-bool ppmi_accel_intersect_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
-                                   ppmi_hit_filter *filter, ppmi_hit *out_hit);
-
-/* Whether there is any hit in (0, t_max) that the filter does not pass. If not it has been asked of
- * all that are in the way. */
-bool ppmi_accel_occluded_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
-                                  ppmi_hit_filter *filter);
-
 /* All hits in (0, t_max), at most max of them, nearest first; a triangle may be among them twice.
  * Returns their number. Where more are in the way, which of them are found is not said. Any thread.
  */
@@ -63,6 +46,20 @@ uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, 
 
 /* Whether anything is in (0, t_max). Any thread. */
 bool ppmi_accel_occluded(const ppmi_accel *accel, const ppmi_ray *ray);
+
+/* A triangle that lies near a place: world space, counter-clockwise from its front. */
+typedef struct ppmi_near_triangle {
+    ppmi_vec3 corners[3];
+    uint32_t instance, primitive, element;
+} ppmi_near_triangle;
+
+/* Is shown one triangle after the other, in no order that is said; false ends the search. */
+typedef bool (*ppmi_near_visit)(void *user, const ppmi_near_triangle *triangle);
+
+/* Shows all triangles that a ball around p touches at a time within the shutter, and some that it
+ * nearly does; not those of clear glass, and no balls and round segments. Any thread. */
+void ppmi_accel_nearby(const ppmi_accel *accel, ppmi_vec3 p, float radius, float time,
+                       ppmi_near_visit visit, void *user);
 
 /* "Embree 3.13.5": the version compiled against. Static. */
 const char *ppmi_accel_version(void);

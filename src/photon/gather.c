@@ -6,11 +6,9 @@
 
 #include "photon/adjoint.h"
 
-/* A photon further off the tangent plane than this share of the radius lies on something else:
- * a parallel wall, the far side of an edge. */
-static const float plane_tolerance = 0.3f;
-/* Cosine between the geometric normals of photon and point. */
-static const float normal_tolerance = 0.7f;
+/* No photon of a disk is further from its centre than this, in radii: its distance counts in the
+ * tangent plane. */
+static const float disk_reach = 1.05f;
 
 enum { CANDIDATES = 64 };
 
@@ -29,8 +27,8 @@ static float cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_vec3 ng)
 static bool is_on_surface(const ppmi_bsdf *bsdf, ppmi_vec3 ng)
 {
     const float cosine = vec3_dot(ng, bsdf->ng);
-    return cosine >= normal_tolerance ||
-           (cosine <= -normal_tolerance && bsdf->gather_lobes & PPMI_LOBE_THROUGH);
+    return cosine >= PPMI_REGION_COSINE ||
+           (cosine <= -PPMI_REGION_COSINE && bsdf->gather_lobes & PPMI_LOBE_THROUGH);
 }
 
 /* Whether the photon counted. */
@@ -54,19 +52,20 @@ static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
     return true;
 }
 
-/* The photons of a block that lie within the disk: index and squared distance. The tests come
- * first, for all, so that they are vectorised; picking follows without a branch. */
+/* The photons of a block that lie within the disk or ball: index and squared distance, of a disk in
+ * its plane: in_plane is 1. The tests come first, for all, so that they are vectorised; picking
+ * follows without a branch. */
 static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint32_t count,
                              ppmi_vec3 p, ppmi_vec3 n, float radius2, float thickness,
-                             uint32_t *indices, float *distances2)
+                             float in_plane, uint32_t *indices, float *distances2)
 {
     const float *x = grid->x + begin, *y = grid->y + begin, *z = grid->z + begin;
     float all_distances2[CANDIDATES];
     uint32_t is_inside[CANDIDATES];
     for (uint32_t i = 0; i < count; i++) {
         const float dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z;
-        all_distances2[i] = dx * dx + dy * dy + dz * dz;
         const float off_plane = fabsf(dx * n.x + dy * n.y + dz * n.z);
+        all_distances2[i] = dx * dx + dy * dy + dz * dz - in_plane * off_plane * off_plane;
         is_inside[i] = (all_distances2[i] < radius2) & (off_plane <= thickness);
     }
     uint32_t selected = 0;
@@ -76,6 +75,11 @@ static uint32_t select_block(const ppmi_photon_grid *grid, uint32_t begin, uint3
         selected += is_inside[i];
     }
     return selected;
+}
+
+static ppmi_vec3 place_of(const ppmi_photon_grid *grid, uint32_t index)
+{
+    return vec3(grid->x[index], grid->y[index], grid->z[index]);
 }
 
 static ppmi_vec3 share_of_255(const uint8_t share[3])
@@ -95,31 +99,43 @@ static void add_to_layers(const ppmi_gather_layers *layers, const ppmi_visible_p
     ppmi_light_sink_add_photon(layers->sink, point->eye_class, &point->bsdf, albedo, &light);
 }
 
-/* marks and layers may be NULL. */
-static inline __attribute__((always_inline)) ppmi_gathered gather(const ppmi_photon_grid *grid,
-                                                                  const ppmi_albedo_table *albedo,
-                                                                  const ppmi_visible_point *point,
-                                                                  float radius, atomic_uchar *marks,
-                                                                  const ppmi_gather_layers *layers)
+/* region, marks and layers may be NULL. */
+static inline __attribute__((always_inline)) ppmi_gathered
+gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
+       const ppmi_visible_point *point, float radius, const ppmi_gather_region *region,
+       atomic_uchar *marks, const ppmi_gather_layers *layers)
 {
     const ppmi_bsdf *bsdf = &point->bsdf;
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
+    const bool is_part = region && !region->is_whole;
+    float kernel = is_phase ? ball_kernel : disk_kernel;
+    ppmi_gathered gathered = {.share = 1.0f};
+    if (region) {
+        const float enlarged = radius / region->radius;
+        gathered.is_crowded = enlarged > 1.5f;
+        gathered.share = region->share / (enlarged * enlarged);
+        kernel /= gathered.share;
+        radius = region->radius;
+    }
     const float radius2 = radius * radius;
-    const float thickness = is_phase ? INFINITY : radius * plane_tolerance;
-    const float kernel = is_phase ? ball_kernel : disk_kernel;
+    const float thickness = is_phase ? INFINITY : radius * PPMI_REGION_BELOW;
     ppmi_photon_run runs[PPMI_GRID_MAX_RUNS];
-    const uint32_t run_count =
-        ppmi_photon_grid_lookup(grid, point->position, radius, bsdf->ng, thickness, runs);
-    ppmi_gathered gathered = {0};
+    const uint32_t run_count = ppmi_photon_grid_lookup(
+        grid, point->position, is_phase ? radius : radius * disk_reach, bsdf->ng, thickness, runs);
     for (uint32_t r = 0; r < run_count; r++) {
         for (uint32_t begin = runs[r].begin; begin < runs[r].end; begin += CANDIDATES) {
             const uint32_t left = runs[r].end - begin;
             const uint32_t count = left < CANDIDATES ? left : CANDIDATES;
             uint32_t indices[CANDIDATES];
             float distances2[CANDIDATES];
-            const uint32_t selected = select_block(grid, begin, count, point->position, bsdf->ng,
-                                                   radius2, thickness, indices, distances2);
+            const uint32_t selected =
+                select_block(grid, begin, count, point->position, bsdf->ng, radius2, thickness,
+                             is_phase ? 0.0f : 1.0f, indices, distances2);
             for (uint32_t k = 0; k < selected; k++) {
+                if (is_part && (!is_on_surface(bsdf, grid->payloads[indices[k]].ng) ||
+                                !ppmi_region_holds(region, place_of(grid, indices[k])))) {
+                    continue;
+                }
                 ppmi_vec3 contribution;
                 const bool counts =
                     add_photon(&grid->payloads[indices[k]], bsdf, albedo,
@@ -137,20 +153,23 @@ static inline __attribute__((always_inline)) ppmi_gathered gather(const ppmi_pho
 }
 
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius)
+                          const ppmi_visible_point *point, float radius,
+                          const ppmi_gather_region *region)
 {
-    return gather(grid, albedo, point, radius, NULL, NULL);
+    return gather(grid, albedo, point, radius, region, NULL, NULL);
 }
 
 ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                                       const ppmi_visible_point *point, float radius,
+                                      const ppmi_gather_region *region,
                                       const ppmi_gather_layers *layers)
 {
-    return gather(grid, albedo, point, radius, NULL, layers);
+    return gather(grid, albedo, point, radius, region, NULL, layers);
 }
 
 void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                      const ppmi_visible_point *point, float radius, atomic_uchar *marks)
+                      const ppmi_visible_point *point, float radius,
+                      const ppmi_gather_region *region, atomic_uchar *marks)
 {
-    gather(grid, albedo, point, radius, marks, NULL);
+    gather(grid, albedo, point, radius, region, marks, NULL);
 }

@@ -5,22 +5,26 @@
 #include <stdatomic.h>
 
 #include "photon/grid.h"
-#include "photon/point.h"
+#include "photon/region.h"
 #include "transport/light_layers.h"
 
 /* What photons bring to one visible point. */
 typedef struct ppmi_gathered {
-    ppmi_vec3 flux; /* sum of f * power * kernel, unnormalised; throughput is not in it */
-    float count;    /* photons that contributed */
+    ppmi_vec3 flux;  /* sum of f * power * kernel, unnormalised; throughput is not in it */
+    float count;     /* photons that contributed */
+    float share;     /* of the disk or ball that was asked for: measure of what was searched */
+    bool is_crowded; /* the disk had to be smaller than asked for */
 } ppmi_gathered;
 
 /* Gathers at a point within radius (metres): in the disk around a surface point, in the ball around
  * one in a medium. grid holds photons of that kind. At a surface a photon counts only if it lies
- * near the tangent plane, on a surface that faces the same way (or the other way, where light
- * passes diffusely), and the BSDF lets some of it
- * through: what brings nothing must not shrink the radius (mitsuba-renderer/mitsuba#145). */
+ * in the region (of that radius; NULL: the whole disk), on a surface that faces the same way (or
+ * the other way, where light passes diffusely), and the BSDF lets some of it through: what brings
+ * nothing must not shrink the radius (mitsuba-renderer/mitsuba#145). The flux is scaled to what a
+ * whole disk would have. */
 ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius);
+                          const ppmi_visible_point *point, float radius,
+                          const ppmi_gather_region *region);
 
 /* The same, with layers of light: what each photon brings, times factor, goes into sink by its tag;
  * photons is the list that the grid was built from. */
@@ -31,11 +35,13 @@ typedef struct ppmi_gather_layers {
 } ppmi_gather_layers;
 ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                                       const ppmi_visible_point *point, float radius,
+                                      const ppmi_gather_region *region,
                                       const ppmi_gather_layers *layers);
 
 /* Marks the photons that a gathering there would count, each at its place in the list that the grid
  * was built from. Any thread: marks of several are the same. */
 void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
-                      const ppmi_visible_point *point, float radius, atomic_uchar *marks);
+                      const ppmi_visible_point *point, float radius,
+                      const ppmi_gather_region *region, atomic_uchar *marks);
 
 #endif

@@ -7,6 +7,8 @@ ppm_status ppmi_photon_map_fill(ppm_context *context, ppmi_photon_map *map,
 {
     for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
         map->photons[kind].count = 0;
+    map->accel = walk->world->accel;
+    map->time = walk->has_one_time ? walk->time : 0.0f;
     ppm_status status = ppmi_photon_walk_run(context, walk, &map->scratch, map->photons, out_rays);
     for (int kind = 0; kind < PPMI_PHOTON_KINDS && status == PPM_STATUS_OK; kind++) {
         status = ppmi_photon_grid_build(context, &map->grids[kind], map->photons[kind].photons,
@@ -39,6 +41,53 @@ uint64_t ppmi_photon_map_count(const ppmi_photon_map *map)
     for (int kind = 0; kind < PPMI_PHOTON_KINDS; kind++)
         count += map->photons[kind].count;
     return count;
+}
+
+/* ---- gathering ------------------------------------------------------------------------------- */
+
+static int kind_of(const ppmi_visible_point *point)
+{
+    return ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
+}
+
+/* NULL in a medium. */
+static const ppmi_gather_region *find_region(const ppmi_photon_map *map,
+                                             const ppmi_visible_point *point, float radius,
+                                             ppmi_gather_region *region)
+{
+    if (!map->accel || kind_of(point) == PPMI_PHOTONS_VOLUME) return NULL;
+    ppmi_region_find(map->accel, point, radius, map->time, region);
+    return region;
+}
+
+ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                                     const ppmi_visible_point *point, float radius)
+{
+    ppmi_gather_region region;
+    return ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius,
+                       find_region(map, point, radius, &region));
+}
+
+ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
+                                                 const ppmi_albedo_table *albedo,
+                                                 const ppmi_visible_point *point, float radius,
+                                                 const ppmi_gather_layers *layers)
+{
+    const int kind = kind_of(point);
+    ppmi_gather_region region;
+    ppmi_gather_layers of_kind = *layers;
+    of_kind.photons = map->photons[kind].photons;
+    return ppmi_gather_with_layers(&map->grids[kind], albedo, point, radius,
+                                   find_region(map, point, radius, &region), &of_kind);
+}
+
+void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                          const ppmi_visible_point *point, float radius)
+{
+    const int kind = kind_of(point);
+    ppmi_gather_region region;
+    ppmi_gather_mark(&map->grids[kind], albedo, point, radius,
+                     find_region(map, point, radius, &region), map->marks[kind]);
 }
 
 /* ---- the guide ------------------------------------------------------------------------------- */

@@ -11,6 +11,8 @@ typedef struct ppmi_photon_map {
     ppmi_photon_list photons[PPMI_PHOTON_KINDS];
     ppmi_photon_grid grids[PPMI_PHOTON_KINDS];
     atomic_uchar *marks[PPMI_PHOTON_KINDS]; /* of the photons that were seen; or NULL */
+    const ppmi_accel *accel; /* what the photons landed on; NULL: disks are taken to be whole */
+    float time;              /* of the photons, or any where nothing moves */
 } ppmi_photon_map;
 
 /* Traces the photons of walk and sorts them, in place of what the map held. typical_radius: see
@@ -25,38 +27,22 @@ uint64_t ppmi_photon_map_count(const ppmi_photon_map *map);
 /* Learning a guide by a map that was filled without one: marks are made, visible points mark the
  * photons that they see (any thread), and the guide is learnt by those photons' emission. */
 ppm_status ppmi_photon_map_begin_marks(ppm_context *context, ppmi_photon_map *map);
-static inline void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                                        const ppmi_visible_point *point, float radius)
-{
-    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
-    ppmi_gather_mark(&map->grids[kind], albedo, point, radius, map->marks[kind]);
-}
+void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                          const ppmi_visible_point *point, float radius);
 /* Frees the marks. *out_gain: how many times as many photons will be kept with the guide, 0 where
  * too little was seen to learn from. walk: the map's. Returns OK, OUT_OF_MEMORY. */
 ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
                                  const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
                                  double *out_gain);
 
-/* Gathers at a visible point, of either kind. */
-static inline ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map,
-                                                   const ppmi_albedo_table *albedo,
-                                                   const ppmi_visible_point *point, float radius)
-{
-    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
-    return ppmi_gather(&map->grids[kind], albedo, point, radius);
-}
+/* Gathers at a visible point, of either kind, what lies in the region of gathering around it. */
+ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                                     const ppmi_visible_point *point, float radius);
 
 /* The same, with layers of light; layers->photons is not used. */
-static inline ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
-                                                               const ppmi_albedo_table *albedo,
-                                                               const ppmi_visible_point *point,
-                                                               float radius,
-                                                               const ppmi_gather_layers *layers)
-{
-    const int kind = ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
-    ppmi_gather_layers of_kind = *layers;
-    of_kind.photons = map->photons[kind].photons;
-    return ppmi_gather_with_layers(&map->grids[kind], albedo, point, radius, &of_kind);
-}
+ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
+                                                 const ppmi_albedo_table *albedo,
+                                                 const ppmi_visible_point *point, float radius,
+                                                 const ppmi_gather_layers *layers);
 
 #endif

@@ -171,7 +171,8 @@ void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
         const float radius = *scale * ppmi_photon_pass_unit(job, photons, point, *scale);
         const ppmi_gathered gathered =
             ppmi_photon_map_gather(&photons->map, job->world.albedo, point, radius);
-        if (gathered.count >= (float)PILOT_PHOTONS || 1.5f * radius > photons->largest_radius) {
+        if (gathered.count >= (float)PILOT_PHOTONS || gathered.is_crowded ||
+            1.5f * radius > photons->largest_radius) {
             return;
         }
         *scale *= step;
@@ -199,7 +200,7 @@ ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_pho
     layers->point_count++;
     if (dimension == PPMI_DISK) {
         layers->surface_count++;
-        layers->pass.photons_per_area += gathered.count / extent;
+        layers->pass.photons_per_area += gathered.count / (extent * gathered.share);
     }
     return gathered;
 }

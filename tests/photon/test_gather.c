@@ -64,7 +64,7 @@ static ppmi_gathered gather(const ppmi_photon *photons, size_t count, float radi
     ppmi_photon_grid grid = {0};
     assert_int_equal(ppmi_photon_grid_build(context, &grid, photons, count, radius, 1),
                      PPM_STATUS_OK);
-    const ppmi_gathered gathered = ppmi_gather(&grid, &albedo, &point, radius);
+    const ppmi_gathered gathered = ppmi_gather(&grid, &albedo, &point, radius, NULL);
     ppmi_photon_grid_deinit(context, &grid);
     return gathered;
 }
