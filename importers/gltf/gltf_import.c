@@ -102,7 +102,7 @@ static void report_turned(const ppmi_gltf_reader *r)
 {
     if (r->tally.turned_meshes == 0) return;
     ppmi_log(r->context, PPM_LOG_INFO,
-             "%s: %zu meshes of solid glass are closed and wound inside out: turned", r->path,
+             "%s: %u meshes of solid glass are closed and wound inside out: turned", r->path,
              r->tally.turned_meshes);
 }
 
@@ -208,6 +208,9 @@ ppm_status ppmi_gltf_asset_import(ppmi_gltf_asset *asset, ppm_scene *scene)
     if (status == PPM_STATUS_OK) status = ppmi_gltf_load_images(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_nodes(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_import_environment(r);
+    if (status == PPM_STATUS_OK) {
+        status = ppm_scene_turn_solids(r->scene, &r->tally.turned_meshes);
+    }
     if (status == PPM_STATUS_OK) report(r);
     if (status == PPM_STATUS_OK) status = ppmi_gltf_report_finish(r);
     return status;

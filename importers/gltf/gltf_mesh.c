@@ -271,9 +271,7 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
         .primitives = descs,
         .release = is_large(all, mesh->primitive_count) ? release_array : NULL,
         .release_user = &h};
-    const ppm_status status = ppm_scene_add_mesh(reader->scene, &desc, out_id);
-    if (ppm_scene_mesh_turned_count(reader->scene, *out_id) > 0) reader->tally.turned_meshes++;
-    return status;
+    return ppm_scene_add_mesh(reader->scene, &desc, out_id);
 }
 
 static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_deform *deform,

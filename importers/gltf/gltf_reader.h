@@ -42,7 +42,7 @@ typedef struct ppmi_gltf_tally {
     size_t doubtful_suns;
     size_t broken_counts, no_positions;
     size_t solid_glass, thin_glass;
-    size_t turned_meshes; /* solids wound inside out */
+    uint32_t turned_meshes; /* solids wound inside out */
 } ppmi_gltf_tally;
 
 typedef struct ppmi_gltf_decoded ppmi_gltf_decoded; /* gltf_decoded.h */

@@ -59,7 +59,7 @@ static void report(const ppmi_obj_reader *r)
     }
     if (tally->turned_meshes > 0) {
         ppmi_log(r->context, PPM_LOG_INFO,
-                 "%s: %zu objects of solid glass are closed and wound inside out: turned", r->path,
+                 "%s: %u objects of solid glass are closed and wound inside out: turned", r->path,
                  tally->turned_meshes);
     }
     report_count(r, tally->reflections,
@@ -155,6 +155,9 @@ ppm_status ppmi_obj_asset_import(ppmi_obj_asset *asset, ppm_scene *scene)
     if (status == PPM_STATUS_OK) status = ppmi_obj_smooth_normals(r);
     if (status == PPM_STATUS_OK) status = ppmi_obj_crease_normals(r);
     if (status == PPM_STATUS_OK) status = ppmi_obj_emit(r);
+    if (status == PPM_STATUS_OK) {
+        status = ppm_scene_turn_solids(r->scene, &r->tally.turned_meshes);
+    }
     if (status == PPM_STATUS_OK) report(r);
     return status;
 }

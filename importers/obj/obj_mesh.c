@@ -293,10 +293,7 @@ static ppm_status add_node(ppmi_obj_reader *r, uint32_t object, const ppm_primit
     ppm_instance_id id;
     write_transform(r->options, instance.transform);
     ppm_status status = ppm_scene_add_mesh(r->scene, &mesh, &instance.mesh);
-    if (status == PPM_STATUS_OK) {
-        r->tally.turned_meshes += ppm_scene_mesh_turned_count(r->scene, instance.mesh) > 0;
-        status = ppm_scene_add_instance(r->scene, &instance, &id);
-    }
+    if (status == PPM_STATUS_OK) status = ppm_scene_add_instance(r->scene, &instance, &id);
     ppmi_free(r->context, asset);
     return status;
 }

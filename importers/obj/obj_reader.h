@@ -75,8 +75,8 @@ typedef struct ppmi_obj_tally {
     size_t broken; /* elements that were not kept since an index is no number */
     size_t no_number_uvs, no_number_normals; /* nan and the like */
     size_t free_forms, small_faces, short_lines, unknown, glass, displaced, reflections;
-    size_t flat_faces;    /* without a normal */
-    size_t turned_meshes; /* solids wound inside out */
+    size_t flat_faces;      /* without a normal */
+    uint32_t turned_meshes; /* solids wound inside out */
     size_t unknown_line;
     char unknown_word[32]; /* the first one */
 } ppmi_obj_tally;

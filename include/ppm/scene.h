@@ -268,16 +268,11 @@ typedef struct ppm_mesh_desc {
 } ppm_mesh_desc;
 
 /* Adds a mesh. Triangles with a position that is not finite, and those of no area, are dropped and
- * counted in a warning; normals that are not finite or zero are replaced by the face's. What is
- * closed, of a solid material (PPM_TRANSMISSION_SOLID) and wound inside out is turned, with all
- * that is inside of it; open surfaces are not: their outside is where the winding says. Returns OK,
- * INVALID_ARGUMENT (an index out of range, sizes that overflow), OUT_OF_MEMORY, WRONG_STATE. The id
- * is valid until ppm_scene_destroy; *out_id is untouched on failure. */
+ * counted in a warning; normals that are not finite or zero are replaced by the face's.
+ * Returns OK, INVALID_ARGUMENT (an index out of range, sizes that overflow), OUT_OF_MEMORY,
+ * WRONG_STATE. The id is valid until ppm_scene_destroy; *out_id is untouched on failure. */
 PPM_API ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc,
                                       ppm_mesh_id *out_id);
-
-/* How many triangles of a mesh were turned as wound inside out; 0 for an unknown id too. */
-PPM_API uint32_t ppm_scene_mesh_turned_count(const ppm_scene *scene, ppm_mesh_id id);
 
 typedef struct ppm_instance_desc {
     uint32_t size;    /* sizeof(ppm_instance_desc) */
@@ -305,6 +300,13 @@ PPM_API void ppm_scene_get_origin(const ppm_scene *scene, double out_origin_m[3]
  * WRONG_STATE. A singular transform is dropped with a warning; *out_id is then 0. */
 PPM_API ppm_status ppm_scene_add_instance(ppm_scene *scene, const ppm_instance_desc *desc,
                                           ppm_instance_id *out_id);
+
+/* Turns what is closed, of a solid material (PPM_TRANSMISSION_SOLID), wound inside out and not
+ * inside of another solid, with all that is inside of it: in a mesh whose vertices or materials are
+ * new since the last call. Open surfaces stay: their outside is where the winding says. A render
+ * session does this when it is created; importers do, to tell of it. *out_meshes: how many meshes
+ * have been turned, whole or in parts. Returns OK, INVALID_ARGUMENT, WRONG_STATE, OUT_OF_MEMORY. */
+PPM_API ppm_status ppm_scene_turn_solids(ppm_scene *scene, uint32_t *out_meshes);
 
 /* ---- changes between frames ------------------------------------------------------------------ */
 

@@ -38,6 +38,23 @@ uint64_t ppmi_accel_builds(const ppm_scene *scene);
 /* The closest hit in (0, t_max); false when there is none. Any thread. */
 bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit *out_hit);
 
+/* Which hits a ray passes. It is asked of hits in any order, of some that lie behind the closest
+ * one, and perhaps of one twice; what it answers must depend on the hit only. All within one
+ * search: no ray is begun anew behind what it passed, so that nothing is jumped over however close,
+ * and any number is passed. Base of what the caller needs beside it. */
+typedef struct ppmi_hit_filter {
+    bool (*passes)(struct ppmi_hit_filter *filter, const ppmi_hit *hit);
+} ppmi_hit_filter;
+
+/* The closest hit that the filter does not pass, in (0, t_max); false when there is none. */
+bool ppmi_accel_intersect_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
+                                   ppmi_hit_filter *filter, ppmi_hit *out_hit);
+
+/* Whether there is any hit in (0, t_max) that the filter does not pass. If not it has been asked of
+ * all that are in the way. */
+bool ppmi_accel_occluded_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
+                                  ppmi_hit_filter *filter);
+
 /* All hits in (0, t_max), at most max of them, nearest first; a triangle may be among them twice.
  * Returns their number. Where more are in the way, which of them are found is not said. Any thread.
  */

@@ -75,22 +75,95 @@ bool ppmi_accel_intersect(const ppmi_accel *accel, const ppmi_ray *ray, ppmi_hit
     return true;
 }
 
-/* ---- all hits -------------------------------------------------------------------------------- */
+/* ---- filtered hits --------------------------------------------------------------------------- */
+
+#if RTC_VERSION_MAJOR >= 4
+typedef struct RTCRayQueryContext query_context;
+#else
+typedef struct RTCIntersectContext query_context;
+#endif
+
+static void intersect_with(const ppmi_accel *accel, struct RTCRayHit *query, query_context *context,
+                           RTCFilterFunctionN filter)
+{
+    query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(context);
+    struct RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = context;
+    arguments.filter = filter;
+    rtcIntersect1(accel->top, query, &arguments);
+#else
+    rtcInitIntersectContext(context);
+    context->filter = filter;
+    rtcIntersect1(accel->top, context, query);
+#endif
+}
 
 /* Embree's own context, and behind it ours: a filter is given the former. */
-typedef struct collection {
+typedef struct filtered {
+    query_context context;
+    const ppmi_accel *accel;
+    ppmi_hit_filter *filter;
+} filtered;
+
+/* Of single rays the packets of N are plain structs. */
+static void ask(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const filtered *query = (const filtered *)arguments->context;
+    const struct RTCRay *ray = (const struct RTCRay *)arguments->ray;
+    const struct RTCHit *found = (const struct RTCHit *)arguments->hit;
+    ppmi_hit hit;
+    load_hit(query->accel, found, ray->tfar, ray->time, &hit);
+    if (query->filter->passes(query->filter, &hit)) arguments->valid[0] = 0;
+}
+
+bool ppmi_accel_intersect_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
+                                   ppmi_hit_filter *filter, ppmi_hit *out_hit)
+{
+    struct RTCRayHit query;
+    query.ray = embree_ray(ray);
+    filtered with = {.accel = accel, .filter = filter};
+    intersect_with(accel, &query, &with.context, ask);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    load_hit(accel, &query.hit, query.ray.tfar, ray->time, out_hit);
+    return true;
+}
+
+bool ppmi_accel_occluded_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
+                                  ppmi_hit_filter *filter)
+{
+    struct RTCRay query = embree_ray(ray);
+    filtered with = {.accel = accel, .filter = filter};
 #if RTC_VERSION_MAJOR >= 4
-    struct RTCRayQueryContext context;
+    rtcInitRayQueryContext(&with.context);
+    struct RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = &with.context;
+    arguments.filter = ask;
+    rtcOccluded1(accel->top, &query, &arguments);
 #else
-    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&with.context);
+    with.context.filter = ask;
+    rtcOccluded1(accel->top, &with.context, &query);
 #endif
+    return query.tfar < 0.0f;
+}
+
+/* ---- all hits -------------------------------------------------------------------------------- */
+
+typedef struct collection {
+    query_context context;
     const ppmi_accel *accel;
     ppmi_hit *hits;
     uint32_t count, max;
 } collection;
 
-/* Notes a hit in its place by distance, and lets the ray go on. Of single rays the packets of N are
- * plain structs. */
+/* Notes a hit in its place by distance, and lets the ray go on. */
 static void collect(const struct RTCFilterFunctionNArguments *arguments)
 {
     collection *all = (collection *)arguments->context;
@@ -112,22 +185,8 @@ uint32_t ppmi_accel_intersect_all(const ppmi_accel *accel, const ppmi_ray *ray, 
     struct RTCRayHit query;
     if (!is_within_reach(ray)) return 0;
     query.ray = embree_ray(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     collection all = {.accel = accel, .hits = out_hits, .max = max};
-#if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&all.context);
-    struct RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
-    arguments.context = &all.context;
-    arguments.filter = collect;
-    rtcIntersect1(accel->top, &query, &arguments);
-#else
-    rtcInitIntersectContext(&all.context);
-    all.context.filter = collect;
-    rtcIntersect1(accel->top, &all.context, &query);
-#endif
+    intersect_with(accel, &query, &all.context, collect);
     return all.count;
 }
 

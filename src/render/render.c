@@ -460,13 +460,14 @@ ppm_status ppm_render_create(ppm_scene *scene, const ppm_render_options *options
                              ppm_render **out_render)
 {
     if (!scene || !out_render) return PPM_STATUS_INVALID_ARGUMENT;
+    uint32_t turned;
     if (!has_anything(scene)) {
         return ppmi_fail(scene->context, PPM_STATUS_WRONG_STATE,
                          "there is nothing to render: the scene has no triangles, points or lines, "
                          "no camera and no light");
     }
     ppm_status status = complete_scene(scene, options);
-    if (status == PPM_STATUS_OK && !scene->is_frozen) status = ppmi_scene_orient(scene);
+    if (status == PPM_STATUS_OK && !scene->is_frozen) status = ppmi_scene_orient(scene, &turned);
     if (status != PPM_STATUS_OK) return status;
     ppmi_scene_freeze(scene);
     ppm_render_options resolved;

@@ -1,7 +1,7 @@
 /* Meshes and instances: checked and copied. */
 #include <string.h>
 
-#include "scene/orient.h"
+#include "scene/scene.h"
 
 typedef struct mesh_faults {
     uint64_t not_finite; /* triangles with a NaN or infinite position */
@@ -411,8 +411,6 @@ ppm_status ppm_scene_add_mesh(ppm_scene *scene, const ppm_mesh_desc *desc, ppm_m
     }
     if (status != PPM_STATUS_OK) return status;
     update_bounds(mesh);
-    status = ppmi_mesh_orient(scene, mesh);
-    if (status != PPM_STATUS_OK) return status;
     report_faults(scene, name, &faults);
     *out_id = scene->mesh_count;
     return PPM_STATUS_OK;

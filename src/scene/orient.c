@@ -349,6 +349,84 @@ static void find_outermost(orientation *o, uint32_t index, uint8_t *parities)
     }
 }
 
+/* ---- inside of other meshes ------------------------------------------------------------------ */
+
+/* Tests of triangles against lines, of a scene: what is left after them stays as it is. */
+enum { MOST_TESTS = 1 << 28 };
+
+/* About upwards: an open sheet of water has its inside below, as in transport/solid.c. */
+static const ppmi_vec3 upwards = {0.0137f, 1.0f, 0.0071f};
+
+static ppmi_vec3 middle_of(const orientation *o, const face *f)
+{
+    const ppmi_vec3 a = vec3_load(o->places[f->v[0]]), b = vec3_load(o->places[f->v[1]]),
+                    c = vec3_load(o->places[f->v[2]]);
+    return vec3_scale(vec3_add(vec3_add(a, b), c), 1.0f / 3.0f);
+}
+
+/* Moller and Trumbore 1997. */
+static bool is_met_upwards(ppmi_vec3 p, ppmi_vec3 a, ppmi_vec3 b, ppmi_vec3 c)
+{
+    const ppmi_vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a), ap = vec3_sub(p, a);
+    const ppmi_vec3 across = vec3_cross(upwards, ac), along = vec3_cross(ap, ab);
+    const float determinant = vec3_dot(ab, across);
+    if (determinant == 0.0f) return false;
+    const float u = vec3_dot(ap, across) / determinant, v = vec3_dot(upwards, along) / determinant;
+    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && vec3_dot(ac, along) / determinant > 0.0f;
+}
+
+static uint32_t count_above(const ppmi_instance *instance, const ppmi_primitive *primitive,
+                            ppmi_vec3 p)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < primitive->triangle_count; i++) {
+        ppmi_vec3 corners[3];
+        for (size_t k = 0; k < 3; k++) {
+            const uint32_t vertex = primitive->indices[3 * i + k];
+            corners[k] = ppmi_transform_point(&instance->to_world,
+                                              vec3_load(primitive->positions + 3 * (size_t)vertex));
+        }
+        count += is_met_upwards(p, corners[0], corners[1], corners[2]);
+    }
+    return count;
+}
+
+/* Whether p may be in the box of the mesh, as it is placed. */
+static bool is_near(const ppmi_instance *instance, const ppmi_mesh *mesh, ppmi_vec3 p)
+{
+    const ppmi_vec3 middle = vec3_scale(vec3_add(mesh->bounds_min, mesh->bounds_max), 0.5f);
+    const float reach = 0.5f * vec3_length(vec3_sub(mesh->bounds_max, mesh->bounds_min));
+    const ppmi_vec3 center = ppmi_transform_point(&instance->to_world, middle);
+    return vec3_length(vec3_sub(p, center)) <= 1.7321f * instance->scale * reach;
+}
+
+/* Whether a place of a mesh, where it stands first, is in a solid of another mesh: it is then a
+ * cavity that was modelled as a mesh of its own. */
+static bool is_in_glass(const ppm_scene *scene, uint32_t mesh, ppmi_vec3 place, uint64_t *budget)
+{
+    uint32_t own = 0;
+    while (own < scene->instance_count && scene->instances[own].mesh != mesh)
+        own++;
+    if (own == scene->instance_count) return false;
+    const ppmi_vec3 p = ppmi_transform_point(&scene->instances[own].to_world, place);
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const ppmi_instance *instance = &scene->instances[i];
+        const ppmi_mesh *other = &scene->meshes[instance->mesh];
+        if (instance->mesh == mesh || !ppmi_instance_is_there(instance)) continue;
+        if (!is_near(instance, other, p)) continue;
+        uint32_t above = 0;
+        for (uint32_t k = 0; k < other->primitive_count; k++) {
+            const ppmi_primitive *primitive = &other->primitives[k];
+            if (!is_solid(scene, primitive)) continue;
+            if (primitive->triangle_count > *budget) return true;
+            *budget -= primitive->triangle_count;
+            above += count_above(instance, primitive, p);
+        }
+        if (above % 2 == 1) return true;
+    }
+    return false;
+}
+
 /* ---- turning --------------------------------------------------------------------------------- */
 
 static bool has_inside_out(const orientation *o)
@@ -360,7 +438,7 @@ static bool has_inside_out(const orientation *o)
 }
 
 /* False when memory is out. */
-static bool choose_turned(orientation *o)
+static bool find_all_outermost(orientation *o)
 {
     for (uint32_t i = 0; i < o->shell_count; i++)
         o->shells[i].outermost = i;
@@ -374,11 +452,20 @@ static bool choose_turned(orientation *o)
         ppmi_free(o->context, parities);
         if (!is_filled) return false;
     }
+    return true;
+}
+
+static void choose_turned(orientation *o, const ppm_scene *scene, uint32_t mesh, uint64_t *budget)
+{
     for (uint32_t i = 0; i < o->shell_count; i++) {
         shell *of = &o->shells[i];
-        of->is_turned = of->is_closed && o->shells[of->outermost].volume6 < 0.0;
+        of->is_turned = of->is_closed && of->outermost == i && of->volume6 < 0.0 &&
+                        !is_in_glass(scene, mesh, middle_of(o, &o->faces[of->sample]), budget);
     }
-    return true;
+    for (uint32_t i = 0; i < o->shell_count; i++) {
+        shell *of = &o->shells[i];
+        if (of->is_closed) of->is_turned = o->shells[of->outermost].is_turned;
+    }
 }
 
 static void turn(uint32_t *triangle)
@@ -475,15 +562,17 @@ static bool find_shells(orientation *o)
     return o->shells != NULL;
 }
 
-ppm_status ppmi_mesh_orient(const ppm_scene *scene, ppmi_mesh *mesh)
+static ppm_status orient(const ppm_scene *scene, uint32_t index, uint64_t *budget)
 {
+    ppmi_mesh *mesh = &scene->meshes[index];
     orientation o = {.context = scene->context, .mesh = mesh};
     mesh->turned_count = 0;
     mesh->oriented_version = mesh->shape_version;
     if (!count_parts(scene, mesh, &o)) return PPM_STATUS_OK;
     bool is_done = find_shells(&o);
     if (is_done && has_inside_out(&o)) {
-        is_done = choose_turned(&o);
+        is_done = find_all_outermost(&o);
+        if (is_done) choose_turned(&o, scene, index, budget);
         if (is_done) turn_mesh(&o, scene, mesh);
     }
     ppmi_free(o.context, o.welded);
@@ -499,17 +588,23 @@ ppm_status ppmi_mesh_orient(const ppm_scene *scene, ppmi_mesh *mesh)
                      mesh->name);
 }
 
-ppm_status ppmi_scene_orient(ppm_scene *scene)
+ppm_status ppmi_scene_orient(ppm_scene *scene, uint32_t *out_meshes)
 {
     ppm_status status = PPM_STATUS_OK;
+    uint64_t budget = MOST_TESTS;
+    *out_meshes = 0;
     for (uint32_t i = 0; i < scene->mesh_count && status == PPM_STATUS_OK; i++) {
         ppmi_mesh *mesh = &scene->meshes[i];
-        if (mesh->oriented_version != mesh->shape_version) status = ppmi_mesh_orient(scene, mesh);
+        if (mesh->oriented_version == mesh->shape_version) continue;
+        status = orient(scene, i, &budget);
+        *out_meshes += mesh->turned_count > 0;
     }
     return status;
 }
 
-uint32_t ppm_scene_mesh_turned_count(const ppm_scene *scene, ppm_mesh_id id)
+ppm_status ppm_scene_turn_solids(ppm_scene *scene, uint32_t *out_meshes)
 {
-    return scene && id > 0 && id <= scene->mesh_count ? scene->meshes[id - 1].turned_count : 0;
+    if (!scene || !out_meshes) return PPM_STATUS_INVALID_ARGUMENT;
+    const ppm_status status = ppmi_scene_check_open(scene);
+    return status == PPM_STATUS_OK ? ppmi_scene_orient(scene, out_meshes) : status;
 }

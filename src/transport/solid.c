@@ -7,6 +7,8 @@
  * interface; something opaque takes the solid's place, as if in optical contact. */
 #include "transport/solid.h"
 
+#include "transport/passing.h"
+
 /* Hits of surfaces at one place: each counts twice on the edge between two triangles. */
 enum { MAX_TOUCHING = 12 };
 
@@ -58,6 +60,7 @@ static void cross_touching(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex
         if (is_same_part(&hits[i], &own)) continue;
         ppmi_surface surface;
         ppmi_surface_from_hit(world->scene, &hits[i], &surface);
+        if (ppmi_is_cut_away(world->scene, &surface)) continue;
         vertex->surface.error = ppmi_max(vertex->surface.error, window);
         if (surface.material->is_solid_glass) {
             cross(&surface, direction, &walker->interior, &vertex->behind);
@@ -134,7 +137,7 @@ ppmi_interior ppmi_solids_around_at(const ppmi_world *world, ppmi_vec3 position,
         .origin = position, .t_max = INFINITY, .direction = {0.0f, 1.0f, 0.0f}, .time = time};
     for (int i = 0; i < MAX_SURFACES; i++) {
         ppmi_hit hit;
-        if (!ppmi_accel_intersect(world->accel, &ray, &hit)) break;
+        if (!ppmi_passing_intersect_rounded(world, &ray, PPMI_RAY_OTHER, &hit)) break;
         ppmi_surface surface;
         ppmi_surface_from_hit(world->scene, &hit, &surface);
         const uint32_t material = surface.primitive->material;

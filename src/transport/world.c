@@ -2,13 +2,11 @@
 #include "transport/world.h"
 
 #include "transport/media.h"
+#include "transport/passing.h"
 #include "transport/solid.h"
 
-/* A stack of this many sheets with alpha ends a ray: it would be black anyway. */
-enum { MAX_SURFACES_PASSED = 256 };
-
-/* Hits at one place that are looked at. */
-enum { MAX_COINCIDENT = 16 };
+/* Surfaces inside of solids that count for more: a ray ends after so many. */
+enum { MAX_SURFACES_PASSED = 4096 };
 
 void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel *accel,
                      const ppmi_lights *lights, const ppmi_albedo_table *albedo,
@@ -23,6 +21,8 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const ppmi_material *material = &scene->materials[i];
         world->has_alpha = world->has_alpha || material->has_alpha;
+        if (!material->desc.double_sided && !material->is_solid_glass)
+            world->has_single_sided = true;
         world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
     }
     world->has_lamps = lights && ppmi_lights_have_lamps(lights);
@@ -36,83 +36,12 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
     world->fog_radius = 0.5f * vec3_length(vec3_sub(high, low)) * 1.0001f;
 }
 
-static bool trace(ppmi_walker *walker, const ppmi_ray *ray, ppmi_vertex *vertex)
+static bool trace(ppmi_walker *walker, const ppmi_ray *ray, ppmi_ray_kind kind, ppmi_vertex *vertex)
 {
     walker->rays++;
-    if (!ppmi_accel_intersect(walker->world->accel, ray, &vertex->hit)) return false;
+    if (!ppmi_passing_intersect(walker, ray, kind, &vertex->hit)) return false;
     ppmi_surface_from_hit(walker->world->scene, &vertex->hit, &vertex->surface);
     return true;
-}
-
-/* Whether it is the back of a single-sided surface, which the camera does not see. */
-static bool is_unseen_back(const ppmi_surface *surface, ppmi_vec3 direction)
-{
-    const ppmi_material *material = surface->material;
-    return !material->desc.double_sided && !material->is_solid_glass &&
-           vec3_dot(direction, surface->ng) > 0.0f;
-}
-
-/* Whether the ray goes on as if the surface was not there. */
-static bool passes_through(ppmi_walker *walker, const ppmi_vertex *vertex, ppmi_vec3 direction,
-                           ppmi_ray_kind kind)
-{
-    const ppmi_material *material = vertex->surface.material;
-    if (kind == PPMI_RAY_CAMERA && is_unseen_back(&vertex->surface, direction)) return true;
-    if (!material->has_alpha) return false;
-    const float opacity = ppmi_surface_opacity(walker->world->scene, &vertex->surface);
-    if (opacity >= 1.0f) return false;
-    if (walker->rounds_opacity) return opacity < 0.5f;
-    return opacity <= 0.0f || ppmi_rng_float(&walker->rng) >= opacity;
-}
-
-static bool is_among(const ppmi_hit *hit, const ppmi_hit *hits, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        if (hit->instance == hits[i].instance && hit->primitive == hits[i].primitive &&
-            hit->triangle == hits[i].triangle) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Moves the vertex from an unseen back to a front that lies on it, as where the inside and the
- * outside of a shell are single-sided surfaces at the same place. Which of the two a ray is told of
- * first is chance, and the next ray would begin beyond both. False where there is none. */
-static bool turn_to_front(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *vertex)
-{
-    const ppmi_world *world = walker->world;
-    const float cosine = ppmi_max(vec3_dot(direction, vertex->surface.ng), 0.05f);
-    const float depth = 3.0f * vertex->surface.error / cosine;
-    const float back = ppmi_min(depth, 0.9f * vertex->hit.t); /* not behind where the ray began */
-    const ppmi_ray probe = {.origin = vec3_mad(vertex->surface.position, direction, -back),
-                            .t_max = back + depth,
-                            .direction = direction,
-                            .time = walker->time};
-    ppmi_hit hits[MAX_COINCIDENT];
-    walker->rays++;
-    const uint32_t count = ppmi_accel_intersect_all(world->accel, &probe, hits, MAX_COINCIDENT);
-    for (uint32_t i = 0; i < count; i++) {
-        if (is_among(&hits[i], hits, i)) continue;
-        ppmi_vertex front = *vertex;
-        front.hit = hits[i];
-        front.hit.t = vertex->hit.t;
-        ppmi_surface_from_hit(world->scene, &front.hit, &front.surface);
-        if (front.surface.material->is_solid_glass) continue;
-        if (passes_through(walker, &front, direction, PPMI_RAY_CAMERA)) continue;
-        *vertex = front;
-        return true;
-    }
-    return false;
-}
-
-/* Whether the ray ends at the surface, or at one that lies on it. */
-static bool is_stopped(ppmi_walker *walker, ppmi_vec3 direction, ppmi_ray_kind kind,
-                       ppmi_vertex *vertex)
-{
-    if (!passes_through(walker, vertex, direction, kind)) return true;
-    return kind == PPMI_RAY_CAMERA && is_unseen_back(&vertex->surface, direction) &&
-           turn_to_front(walker, direction, vertex);
 }
 
 /* Puts the vertex into the medium, at t along the ray. */
@@ -239,7 +168,7 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
     vertex->relative_index = vertex->drawn_wavelength = 0.0f;
     const bool sees_lamps = walker->world->has_lamps && walker->origin;
     for (int i = 0; i < MAX_SURFACES_PASSED; i++) {
-        const bool is_hit = trace(walker, &ray, vertex);
+        const bool is_hit = trace(walker, &ray, kind, vertex);
         ray.t_max = is_hit ? vertex->hit.t : INFINITY;
         const bool is_solid = is_hit && vertex->surface.material->is_solid_glass;
         const bool is_seen = !is_solid || ppmi_solid_arrive(walker, ray.direction, vertex);
@@ -249,12 +178,12 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
         vertex->distance += ray.t_max;
         if (!is_seen) {
             walker->interior = vertex->behind;
-        } else if (is_stopped(walker, ray.direction, kind, vertex)) {
+        } else {
             if (vertex->surface.material->is_solid_glass) {
                 ppmi_solid_refract(walker, ray.direction, vertex);
             }
             return PPMI_AT_SURFACE;
-        } /* a solid's surface that alpha takes away is no border */
+        }
         ray = ppmi_surface_ray(&vertex->surface, ray.direction);
     }
     vertex->transmittance = vec3_splat(0.0f);
@@ -305,31 +234,10 @@ static ppmi_vec3 media_transmittance(const ppmi_world *world, const ppmi_interio
                        : vec3_splat(1.0f);
 }
 
-/* The product of 1 - opacity through surfaces with alpha. */
-static float alpha_visibility(ppmi_walker *walker, ppmi_ray ray)
-{
-    float visibility = 1.0f;
-    for (int i = 0; i < MAX_SURFACES_PASSED && visibility > 1e-4f; i++) {
-        ppmi_vertex vertex;
-        if (!trace(walker, &ray, &vertex)) return visibility;
-        visibility *= 1.0f - ppmi_surface_opacity(walker->world->scene, &vertex.surface);
-        const float left = ray.t_max - vertex.hit.t;
-        ray = ppmi_surface_ray(&vertex.surface, ray.direction);
-        ray.t_max = left;
-        if (!(left > 0.0f)) return visibility;
-    }
-    return 0.0f;
-}
-
 ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior)
 {
-    float visibility;
-    if (walker->world->has_alpha) {
-        visibility = alpha_visibility(walker, ray);
-    } else {
-        walker->rays++;
-        visibility = ppmi_accel_occluded(walker->world->accel, &ray) ? 0.0f : 1.0f;
-    }
+    walker->rays++;
+    const float visibility = ppmi_passing_visibility(walker->world, &ray);
     if (visibility <= 0.0f) return vec3_splat(0.0f);
     return vec3_scale(media_transmittance(walker->world, interior, &ray, ray.t_max), visibility);
 }

@@ -19,9 +19,10 @@ typedef struct ppmi_world {
     const ppmi_albedo_table *albedo;
     const ppmi_spectrum *spectrum;
     const ppmi_contacts *contacts;
-    bool has_alpha;    /* some material lets rays pass */
-    bool has_textures; /* some image has mipmaps: footprints matter */
-    bool has_lamps;    /* some light has an extent and no surface */
+    bool has_alpha;        /* some material lets rays pass */
+    bool has_single_sided; /* some material's back is not seen by the camera */
+    bool has_textures;     /* some image has mipmaps: footprints matter */
+    bool has_lamps;        /* some light has an extent and no surface */
     bool has_fog;
     bool has_scattering;  /* some medium scatters */
     ppmi_vec3 fog_center; /* the ball that the fog fills */

@@ -10,6 +10,7 @@
 #include "support/near.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
+#include "transport/solid.h"
 
 static test_scene test;
 static test_world world;
@@ -162,6 +163,96 @@ static void a_front_that_lies_on_a_back_stops_as_often_as_it_is_opaque(void **st
     family_check(&family);
 }
 
+static ppm_material_id masked(float alpha)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.alpha_mode = PPM_ALPHA_MASK;
+    desc.base_color[3] = alpha;
+    desc.double_sided = 1;
+    return material_add(test.scene, &desc);
+}
+
+/* A clear sheet on a wall, nearer than a float knows, and far from the origin. */
+static void nothing_is_jumped_over_behind_what_is_clear(void **state)
+{
+    const float gaps[] = {0.0f, 1e-7f, 1e-5f, 1e-3f}, offsets[] = {0.0f, 1000.0f};
+    for (int i = 0; i < 8; i++) {
+        if (i > 0) {
+            close_scene(state);
+            open_scene(state);
+        }
+        const float x = offsets[i / 4], gap = gaps[i % 4];
+        const ppmi_vec3 a = vec3(2.1f, 0.2f, 0.3f), b = vec3(-0.1f, 2.2f, 0.4f);
+        add_quad(test.scene, masked(0.0f), vec3(x - 1.1f, -1.2f, gap), a, b);
+        add_quad(test.scene, masked(1.0f), vec3(x - 1.1f, -1.2f, 0.0f), a, b);
+        /* keeps the offset: a scene that is far for its size is moved */
+        add_quad(test.scene, masked(1.0f), vec3(-x, -500, -500), vec3(0, 0.1f, 0),
+                 vec3(0, 0, 0.1f));
+        world_open(&world, &test);
+        for (uint32_t k = 0; k < 500; k++) {
+            ppmi_walker walker = walker_of(k);
+            const float u = ppmi_rng_float(&walker.rng), v = ppmi_rng_float(&walker.rng);
+            const ppmi_ray ray = {.origin = {x, 0.0f, 4.0f},
+                                  .t_max = INFINITY,
+                                  .direction =
+                                      vec3_normalize(vec3(0.3f * u - 0.15f, 0.3f * v, -1.0f))};
+            ppmi_vertex vertex;
+            assert_int_equal(
+                ppmi_walk(&walker, ray, k % 2 ? PPMI_RAY_CAMERA : PPMI_RAY_OTHER, &vertex),
+                PPMI_AT_SURFACE);
+            assert_int_equal(vertex.hit.instance, 1);
+            assert_near(ppmi_walk_visibility(&walker, ray, &walker.interior).x, 0.0, 0.0);
+        }
+    }
+}
+
+static void any_number_of_clear_layers_is_passed(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3000; i++)
+        add_veil(-1.0f - 1e-3f * (float)i, i % 1000 == 999 ? 0.5f : 0.0f, 1);
+    add_veil(-5.0f, 1.0f, 1);
+    world_open(&world, &test);
+    ppmi_walker walker = walker_of(0);
+    ppmi_ray ray = ahead;
+    ray.t_max = 4.5f;
+    assert_near(ppmi_walk_visibility(&walker, ray, &walker.interior).x, 0.125, 1e-6);
+    uint32_t arrived = 0;
+    for (uint32_t k = 0; k < 800; k++) {
+        ppmi_vertex vertex;
+        walker = walker_of(k);
+        assert_int_equal(ppmi_walk(&walker, ahead, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
+        arrived += vertex.hit.instance == 3000;
+    }
+    assert_true(arrived > 55 && arrived < 150); /* 100 of 800, within five deviations */
+}
+
+/* Neither entered, nor one that the camera stands in. */
+static void a_solid_that_is_cut_away_is_not_there(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.transmission = 1.0f;
+    desc.transmission_kind = PPM_TRANSMISSION_SOLID;
+    desc.attenuation_color[0] = 0.5f;
+    desc.attenuation_distance_m = 2.0f;
+    desc.alpha_mode = PPM_ALPHA_MASK;
+    desc.base_color[3] = 0.0f;
+    shape_place(test.scene, shape_box(test.scene, material_add(test.scene, &desc), vec3(-1, -1, -5),
+                                      vec3(1, 1, -1), 1, false));
+    add_veil(-3.0f, 1.0f, 1);
+    world_open(&world, &test);
+    ppmi_walker walker = walker_of(0);
+    ppmi_vertex vertex;
+    assert_int_equal(ppmi_walk(&walker, ahead, PPMI_RAY_OTHER, &vertex), PPMI_AT_SURFACE);
+    assert_int_equal(vertex.hit.instance, 1);
+    assert_near(vertex.transmittance.x, 1.0, 0.0);
+    assert_int_equal(walker.interior.count, 0);
+    assert_int_equal(ppmi_solids_around(&world.world, vec3(0, 0, -4)).count, 0);
+}
+
 static void a_solid_attenuates_on_the_way_out_only(void **state)
 {
     (void)state;
@@ -210,6 +301,9 @@ int main(void)
         WITH_SCENE(only_camera_rays_see_through_backs),
         WITH_SCENE(the_camera_sees_the_front_that_lies_on_a_back),
         WITH_SCENE(a_front_that_lies_on_a_back_stops_as_often_as_it_is_opaque),
+        WITH_SCENE(nothing_is_jumped_over_behind_what_is_clear),
+        WITH_SCENE(any_number_of_clear_layers_is_passed),
+        WITH_SCENE(a_solid_that_is_cut_away_is_not_there),
         WITH_SCENE(a_solid_attenuates_on_the_way_out_only),
         WITH_SCENE(a_walker_draws_the_same_numbers_again),
     };
