@@ -138,8 +138,8 @@ typedef struct ppm_render_options {
     int32_t aim;                /* PPM_AIM_; SPPM and PPM */
     uint64_t photons_per_epoch; /* PPM: after so many photons, in whole passes, new eye paths and
                                    statistics; the epochs are averaged. 0: one endless epoch */
-    int32_t split_depth;        /* PPM: surfaces at which an eye path follows all its branches;
-                                   default 4; negative: none, branches are drawn at random */
+    int32_t split_depth;        /* SPPM and PPM: surfaces at which an eye path follows all its
+                                   branches; default 4; negative: none, they are drawn at random */
 
     float aperture_f_number; /* default: the camera's own; infinite: a pinhole; else at least 0.001.
                                 An orthographic camera has none: resolved to infinite */

@@ -138,8 +138,8 @@ static const option_row rows[] = {
      .most = UINT64_C(1) << 50, .argument = "N",
      .help = "ppm: photons of an epoch (default with --epochs: 10 million)"},
     {"split-depth", 0, VALUE_SPLIT, FIELD(split_depth), .least = 0, .most = 12, .argument = "N",
-     .help = "ppm: at so many surfaces an eye path follows both reflection\n"
-             "and refraction; beyond, one is drawn (default: 4)"},
+     .help = "sppm, ppm: at so many surfaces an eye path follows both\n"
+             "reflection and refraction; beyond, one is drawn (default: 4)"},
     {"max-depth", 0, OPTION_INTEGER, FIELD(max_depth), .least = 1, .most = 10000, .argument = "N",
      .help = "most bounces of a path (default: 4096, all that matter)"},
     {"seed", 0, OPTION_INTEGER, FIELD(seed), .most = INT64_MAX, .argument = "N",

@@ -228,11 +228,10 @@ const ppmi_light_pass *ppmi_pixel_layers_finish(ppmi_pixel_layers *layers)
 
 ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)
 {
-    const bool splits = job->options->integrator == PPM_INTEGRATOR_PPM;
+    const int32_t split_depth = job->options->split_depth;
     return (ppmi_eye_settings){
         .max_depth = job->options->max_depth,
-        .split_depth =
-            splits && job->options->split_depth > 0 ? (uint32_t)job->options->split_depth : 0,
+        .split_depth = split_depth > 0 ? (uint32_t)split_depth : 0,
         .media_depth = 2,
         .samples_lights = job->options->direct != PPM_DIRECT_PHOTONS,
     };
