@@ -32,6 +32,25 @@ static void apply_shift(ppmi_gltf_reader *reader, const char *place, const ppmi_
                    x, y);
 }
 
+/* What viewers and Blender do: a camera outside of a wall, with its near plane behind it, shows the
+ * room. Planes that make no sense are left out, not the camera. */
+static void apply_clipping(ppmi_gltf_reader *reader, const char *place,
+                           const ppmi_gltf_camera *camera, ppm_camera_desc *desc)
+{
+    const double near = camera->z_near, far = camera->z_far;
+    if (reader->options->no_clip) return;
+    if (!(near >= 0.0 && near < 1e15 && (far == 0.0 || far > near) && (float)near < INFINITY) ||
+        (far > 0.0 && (float)far <= (float)near)) {
+        ppmi_gltf_warn(reader, place, "znear %g and zfar %g left out: expected 0 <= znear < zfar",
+                       near, far);
+        return;
+    }
+    desc->near_m = (float)near;
+    desc->far_m = far < 1e30 ? (float)far : 0.0f;
+    ppmi_gltf_note_feature(reader, "camera clipping", PPM_FEATURE_HONOURED,
+                           "znear and zfar, for what cameras see themselves; --no-clip");
+}
+
 ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
@@ -50,6 +69,7 @@ ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
         .half_height_m = (float)fabs(camera->y_mag),
         .aspect = (float)camera->aspect};
     apply_shift(reader, place, camera, &desc);
+    apply_clipping(reader, place, camera, &desc);
     const char *fault = camera_fault(camera);
     for (uint32_t i = 0; i < steps && !fault; ++i) {
         fault = ppmi_gltf_rigid_transform(ppmi_gltf_pose_world(reader->pose, node, i, steps), true,

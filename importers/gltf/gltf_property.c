@@ -50,9 +50,15 @@ static const entry node_entries[] = {
     NODE("extensions/EXT_lights_ies/color", profile_color, 3),
     END};
 
-static const entry camera_entries[] = {
-    CAMERA("perspective/yfov", y_fov_rad), CAMERA("perspective/aspectRatio", aspect),
-    CAMERA("orthographic/xmag", x_mag), CAMERA("orthographic/ymag", y_mag), END};
+static const entry camera_entries[] = {CAMERA("perspective/znear", z_near),
+                                       CAMERA("perspective/zfar", z_far),
+                                       CAMERA("orthographic/znear", z_near),
+                                       CAMERA("orthographic/zfar", z_far),
+                                       CAMERA("perspective/yfov", y_fov_rad),
+                                       CAMERA("perspective/aspectRatio", aspect),
+                                       CAMERA("orthographic/xmag", x_mag),
+                                       CAMERA("orthographic/ymag", y_mag),
+                                       END};
 
 static const entry light_entries[] = {LIGHT("color", color, 3), LIGHT("intensity", intensity, 1),
                                       LIGHT("spot/innerConeAngle", inner_cone_rad, 1),

@@ -187,7 +187,8 @@ typedef struct ppmi_gltf_camera {
     bool is_orthographic;
     double y_fov_rad, aspect; /* aspect 0: not said */
     double x_mag, y_mag;
-    double shift[2]; /* extras.ppm_shift */
+    double z_near, z_far; /* z_far 0: not said */
+    double shift[2];      /* extras.ppm_shift */
 } ppmi_gltf_camera;
 
 enum { PPMI_GLTF_LIGHT_POINT, PPMI_GLTF_LIGHT_SPOT, PPMI_GLTF_LIGHT_DIRECTIONAL };

@@ -67,12 +67,15 @@ void copy_node_lights(const tinygltf::Node &from, ppmi_gltf_node *out)
 
 ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
 {
+    const bool is_orthographic = from.type == "orthographic";
     ppmi_gltf_camera out = {from.name.c_str(),
-                            from.type == "orthographic",
+                            is_orthographic,
                             from.perspective.yfov,
                             from.perspective.aspectRatio,
                             from.orthographic.xmag,
                             from.orthographic.ymag,
+                            is_orthographic ? from.orthographic.znear : from.perspective.znear,
+                            is_orthographic ? from.orthographic.zfar : from.perspective.zfar,
                             {0.0, 0.0}};
     numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
     return out;

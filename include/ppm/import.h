@@ -65,6 +65,7 @@ typedef struct ppm_import_options {
     const char *const *texture_folders; /* where images and material libraries are looked for that
                                            are not beside the file, in this order */
     uint32_t texture_folder_count;
+    uint32_t no_clip; /* non-zero: a glTF camera's znear and zfar are not used */
 } ppm_import_options;
 
 /* Reads path (.gltf, .glb, .obj; the ending decides, letter case does not matter) into scene, which

@@ -370,6 +370,9 @@ typedef struct ppm_camera_desc {
     const float *motion;
     float shift[2]; /* moves the picture to the right and up in its plane, by so many of its
                        heights, as a shift lens does: -100 .. 100 */
+    float near_m;   /* along the axis: the camera itself sees nothing that is nearer, mirrors and
+                       shadows do; 0: all */
+    float far_m;    /* nor further; 0: without end; above near_m */
 } ppm_camera_desc;
 
 PPM_API ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,

@@ -23,6 +23,8 @@ void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t h
         .spread = is_perspective ? pixel : 0.0f,
         .base_width = is_perspective ? 0.0f : pixel,
         .is_perspective = is_perspective,
+        .near_m = camera->near_m,
+        .far_m = camera->far_m > 0.0f ? camera->far_m : INFINITY,
         .motion_steps = camera->motion_steps,
         .motion = camera->motion,
     };
@@ -96,6 +98,11 @@ ppmi_camera_view ppmi_camera_view_at(const ppmi_camera_view *view, float time)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
+ppmi_vec3 ppmi_camera_view_start(const ppmi_camera_view *view)
+{
+    return vec3_mad(view->origin, view->forward, view->near_m);
+}
+
 float ppmi_camera_view_focal_length(const ppmi_camera_view *view)
 {
     const float longer_half = ppmi_max(vec3_length(view->right), vec3_length(view->up));
@@ -118,6 +125,23 @@ static ppmi_vec3 unit_change(ppmi_vec3 unit, ppmi_vec3 step, float scale)
     return vec3_scale(vec3_mad(step, unit, -vec3_dot(unit, step)), scale);
 }
 
+/* Lets a ray begin at the near plane and end at the far one; along is what it gains along forward
+ * over its length. step_x and step_y: how the point at distance 1 along forward changes. */
+static void clip(const ppmi_camera_view *view, float along, ppmi_vec3 step_x, ppmi_vec3 step_y,
+                 ppmi_camera_ray *ray)
+{
+    if (view->near_m > 0.0f) {
+        const float skipped = view->near_m / along;
+        ray->ray.origin = vec3_mad(ray->ray.origin, ray->ray.direction, skipped);
+        ray->base_width += ray->spread * skipped;
+        if (view->is_perspective) {
+            ray->position_dx = vec3_scale(step_x, view->near_m);
+            ray->position_dy = vec3_scale(step_y, view->near_m);
+        }
+    }
+    ray->ray.t_max = (view->far_m - view->near_m) / along;
+}
+
 ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x, float y,
                                           ppmi_vec2 lens)
 {
@@ -135,6 +159,7 @@ ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x,
         result.ray.origin = vec3_add(view->origin, offset);
         result.position_dx = step_x;
         result.position_dy = step_y;
+        clip(view, 1.0f, step_x, step_y, &result);
         return result;
     }
     if (view->has_lens) { /* all points of the lens aim at one point of the sharp plane */
@@ -148,6 +173,7 @@ ppmi_camera_ray ppmi_camera_view_lens_ray(const ppmi_camera_view *view, float x,
     const float scale = 1.0f / vec3_length(through);
     result.direction_dx = unit_change(result.ray.direction, step_x, scale);
     result.direction_dy = unit_change(result.ray.direction, step_y, scale);
+    clip(view, scale, step_x, step_y, &result);
     return result;
 }
 

@@ -18,6 +18,7 @@ typedef struct ppmi_camera_view {
     float inverse_focus;           /* 1 / distance of the plane that is sharp, 1/m */
     float width, height;           /* pixels */
     float shift_x, shift_y;        /* of the picture, in its half width and height */
+    float near_m, far_m;           /* what it sees, along forward; far_m may be infinite */
     float spread;                  /* perspective: angle of a pixel, radians */
     float base_width;              /* orthographic: width of a pixel, metres */
     bool is_perspective;
@@ -35,6 +36,9 @@ void ppmi_camera_view_init(const ppmi_camera *camera, uint32_t width, uint32_t h
  * and the camera turns evenly about one axis (Shoemake 1985, "Animating Rotation with Quaternion
  * Curves"). */
 ppmi_camera_view ppmi_camera_view_at(const ppmi_camera_view *view, float time);
+
+/* The middle of the near plane: where what the camera sees begins. */
+ppmi_vec3 ppmi_camera_view_start(const ppmi_camera_view *view);
 
 /* Focal length, metres, that gives a view its angle on a sensor of PPMI_SENSOR_SIDE_M. Perspective
  * only. */
@@ -57,8 +61,9 @@ typedef struct ppmi_camera_ray {
     ppmi_vec3 direction_dx, direction_dy; /* of the unit direction */
 } ppmi_camera_ray;
 
-/* The ray through the middle of the lens. x to the right in 0 .. width, y down in 0 .. height, in
- * pixels; pixel centres are at halves, and places outside the picture are fine. */
+/* The ray through the middle of the lens, which begins at the near plane and ends at the far one. x
+ * to the right in 0 .. width, y down in 0 .. height, in pixels; pixel centres are at halves, and
+ * places outside the picture are fine. */
 ppmi_camera_ray ppmi_camera_view_ray(const ppmi_camera_view *view, float x, float y);
 
 /* The ray through a point of the lens, which is given on the unit disk; it does not matter without

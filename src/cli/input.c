@@ -110,6 +110,7 @@ static ppm_import_options plain_options(const cli_options *options)
                                 .texture_folders = options->texture_folders,
                                 .texture_folder_count = (uint32_t)options->texture_folder_count,
                                 .allow_outside = options->allows_outside != 0,
+                                .no_clip = options->has_no_clip != 0,
                                 .strict = options->is_strict != 0};
 }
 

@@ -80,6 +80,7 @@ typedef struct cli_options {
     const char *variant; /* a name */
     int32_t is_strict;
     int32_t allows_outside;
+    int32_t has_no_clip;
     const char *setup; /* a path; "none"; NULL: the one beside input, if there is one */
 
     frame_choice frames;   /* by --frame or --frames */

@@ -65,7 +65,8 @@ ppmi_camera_ray ppmi_start_camera_path(const ppmi_job *job, ppmi_walker *walker,
                                               : (float)ppmi_sobol1((uint32_t)pass, TIME_SET, seed);
         const ppmi_camera_view view = ppmi_camera_view_at(&job->view, walker->time);
         if (job->around_camera_changes) {
-            walker->interior = ppmi_solids_around_at(&job->world, view.origin, walker->time);
+            walker->interior =
+                ppmi_solids_around_at(&job->world, ppmi_camera_view_start(&view), walker->time);
         }
         result = ppmi_camera_view_lens_ray(&view, px, py, lens);
         result.ray.time = walker->time;

@@ -122,7 +122,7 @@ uint64_t ppmi_facts_find(const ppmi_job *job, const ppmi_facts *facts, uint32_t 
     walker.rounds_opacity = true;
     walker.time = ray.time = time;
     walker.interior = job->around_camera_changes
-                          ? ppmi_solids_around_at(&job->world, view.origin, time)
+                          ? ppmi_solids_around_at(&job->world, ppmi_camera_view_start(&view), time)
                           : job->around_camera;
     const size_t pixel = (size_t)y * job->film.width + x;
     ppmi_vertex vertex;

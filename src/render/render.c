@@ -380,7 +380,8 @@ static ppm_status set_up_camera(ppm_render *render)
     ppmi_camera_view_init(&render->scene->cameras[options->camera - 1], options->width,
                           options->height, view);
     ppmi_pixel_filter_init(&render->job.filter, options->pixel_filter, options->pixel_filter_width);
-    render->job.around_camera = ppmi_solids_around(&render->job.world, view->origin);
+    render->job.around_camera =
+        ppmi_solids_around(&render->job.world, ppmi_camera_view_start(view));
     set_up_shutter(render);
     if (isinf(options->aperture_f_number)) return PPM_STATUS_OK;
     if (options->focus_distance_m == 0.0f) {

@@ -90,10 +90,14 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
     const bool lens_is_valid = desc->f_number >= 0.0f && desc->focus_distance_m >= 0.0f &&
                                isfinite(desc->focus_distance_m);
     const bool shift_is_valid = fabsf(desc->shift[0]) <= 100.0f && fabsf(desc->shift[1]) <= 100.0f;
-    if (!lens_is_valid || !shift_is_valid || !camera_is_valid(desc)) {
-        return ppmi_fail(scene->context, PPM_STATUS_INVALID_ARGUMENT,
-                         "camera '%s': angle, size, aspect, lens, shift or transform out of range",
-                         name);
+    const bool clip_is_valid = desc->near_m >= 0.0f && isfinite(desc->near_m) &&
+                               (desc->far_m == 0.0f || desc->far_m > desc->near_m);
+    if (!lens_is_valid || !shift_is_valid || !clip_is_valid || !camera_is_valid(desc)) {
+        return ppmi_fail(
+            scene->context, PPM_STATUS_INVALID_ARGUMENT,
+            "camera '%s': angle, size, aspect, lens, shift, clipping or transform out of "
+            "range",
+            name);
     }
     ppmi_camera *cameras =
         ppmi_scene_grow(scene->context, scene->cameras, scene->camera_count, sizeof *cameras);
@@ -109,6 +113,8 @@ ppm_status ppm_scene_add_camera(ppm_scene *scene, const ppm_camera_desc *desc,
         .f_number = desc->f_number,
         .focus_distance_m = desc->focus_distance_m,
         .shift = {desc->shift[0], desc->shift[1]},
+        .near_m = desc->near_m,
+        .far_m = isfinite(desc->far_m) ? desc->far_m : 0.0f,
     };
     status = load_motion(scene, desc, name, &camera);
     if (status != PPM_STATUS_OK) return status;

@@ -133,9 +133,10 @@ void ppmi_scene_digest(const ppm_scene *scene, ppmi_digest *digest)
 
 void ppmi_camera_digest(const ppmi_camera *camera, ppmi_digest *digest)
 {
-    const float facts[8] = {camera->y_fov_rad, camera->half_width_m, camera->half_height_m,
-                            camera->aspect,    camera->f_number,     camera->focus_distance_m,
-                            camera->shift[0],  camera->shift[1]};
+    const float facts[10] = {camera->y_fov_rad, camera->half_width_m, camera->half_height_m,
+                             camera->aspect,    camera->f_number,     camera->focus_distance_m,
+                             camera->shift[0],  camera->shift[1],     camera->near_m,
+                             camera->far_m};
     const ppmi_vec3 place[4] = {camera->origin, camera->right, camera->up, camera->forward};
     ADD(digest, camera->kind);
     ADD(digest, facts);

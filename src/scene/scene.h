@@ -136,6 +136,7 @@ typedef struct ppmi_camera {
     float f_number;         /* 0: pinhole */
     float focus_distance_m; /* 0: not said */
     float shift[2];         /* in heights of the picture */
+    float near_m, far_m;    /* along the axis; far_m 0: without end */
 } ppmi_camera;
 
 typedef struct ppmi_punctual {

@@ -167,9 +167,10 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
     vertex->lamplight = vec3_splat(0.0f);
     vertex->relative_index = vertex->drawn_wavelength = 0.0f;
     const bool sees_lamps = walker->world->has_lamps && walker->origin;
+    const float reach = ray.t_max; /* of a camera that clips; else infinite */
     for (int i = 0; i < MAX_SURFACES_PASSED; i++) {
         const bool is_hit = trace(walker, &ray, kind, vertex);
-        ray.t_max = is_hit ? vertex->hit.t : INFINITY;
+        if (is_hit) ray.t_max = vertex->hit.t;
         const bool is_solid = is_hit && vertex->surface.material->is_solid_glass;
         const bool is_seen = !is_solid || ppmi_solid_arrive(walker, ray.direction, vertex);
         if (sees_lamps && !pass_lamps(walker, &ray, kind, vertex, choice)) return PPMI_IN_MEDIUM;
@@ -185,6 +186,7 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
             return PPMI_AT_SURFACE;
         }
         ray = ppmi_surface_ray(&vertex->surface, ray.direction);
+        ray.t_max = ppmi_max(reach - vertex->distance, 0.0f);
     }
     vertex->transmittance = vec3_splat(0.0f);
     return PPMI_ESCAPED;

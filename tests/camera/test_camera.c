@@ -187,6 +187,36 @@ static void nothing_but_a_perspective_camera_with_an_aperture_has_a_lens(void **
     assert_near(ray.origin.x, 0.0, 1e-6);
 }
 
+/* The same rays, from the near plane to the far one, with the same cone at the same point. */
+static void clipped_rays_begin_and_end_at_planes(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const ppm_camera_id id =
+            i == 1 ? camera_orthographic(test.scene, vec3(1, 2, 3), vec3(1, 2, -7), 2.0f)
+                   : camera_perspective(test.scene, vec3(1, 2, 3), vec3(1, 2, -7), 1.0f);
+        ppmi_camera_view whole = view_of(id, 200, 100), clipped;
+        test.scene->cameras[id - 1].near_m = 2.0f;
+        test.scene->cameras[id - 1].far_m = 7.0f;
+        clipped = view_of(id, 200, 100);
+        if (i == 2) ppmi_camera_view_set_lens(&whole, 0.1f, 3.0f);
+        if (i == 2) ppmi_camera_view_set_lens(&clipped, 0.1f, 3.0f);
+        const ppmi_vec2 lens = {0.5f, -0.25f};
+        const ppmi_camera_ray a = ppmi_camera_view_lens_ray(&whole, 20, 70, lens);
+        const ppmi_camera_ray b = ppmi_camera_view_lens_ray(&clipped, 20, 70, lens);
+        const ppmi_camera_ray c = ppmi_camera_view_lens_ray(&clipped, 21, 70, lens);
+        const ppmi_vec3 end = vec3_mad(b.ray.origin, b.ray.direction, b.ray.t_max);
+        const float skipped = vec3_length(vec3_sub(b.ray.origin, a.ray.origin));
+        assert_true(isinf(a.ray.t_max));
+        assert_near(b.ray.origin.z, 1.0, 1e-6);
+        assert_near(end.z, -4.0, 1e-5);
+        assert_near(vec3_length(vec3_sub(b.ray.direction, a.ray.direction)), 0.0, 0.0);
+        assert_near(b.base_width, a.base_width + a.spread * skipped, 1e-7);
+        assert_near(vec3_length(vec3_sub(vec3_sub(c.ray.origin, b.ray.origin), b.position_dx)), 0.0,
+                    1e-6);
+    }
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -196,6 +226,7 @@ int main(void)
         WITH_SCENE(the_vertical_angle_does_not_depend_on_the_aspect),
         WITH_SCENE(the_cone_is_as_wide_as_a_pixel),
         WITH_SCENE(orthographic_rays_are_parallel),
+        WITH_SCENE(clipped_rays_begin_and_end_at_planes),
         WITH_SCENE(the_longer_side_of_the_sensor_is_36_mm),
         WITH_SCENE(rays_of_a_place_meet_in_the_plane_of_focus_and_nowhere_else),
         WITH_SCENE(nothing_but_a_perspective_camera_with_an_aperture_has_a_lens),

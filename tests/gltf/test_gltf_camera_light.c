@@ -210,6 +210,31 @@ static void invalid_lights_are_left_out_with_a_warning(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
+static void cameras_clip_by_znear_and_zfar_unless_they_are_told_not_to(void **state)
+{
+    gltf_fixture *f = *state;
+    static const char cameras[] =
+        "{'type':'perspective','perspective':{'yfov':1,'znear':2,'zfar':50}},"
+        "{'type':'perspective','perspective':{'yfov':1,'znear':0.5}},"
+        "{'type':'orthographic','orthographic':{'xmag':3,'ymag':2,'znear':0,'zfar':9}},"
+        "{'type':'perspective','perspective':{'yfov':1,'znear':5,'zfar':4}}";
+    static const char nodes[] = "{'camera':0},{'camera':1},{'camera':2},{'camera':3}";
+    for (int i = 0; i < 2; ++i) {
+        f->options.no_clip = i == 1;
+        assert_gltf_status(f, import_cameras(f, nodes, cameras), PPM_STATUS_OK);
+        assert_int_equal(f->scene->camera_count, 4);
+        const ppmi_camera *c = f->scene->cameras;
+        assert_float_equal((double)c[0].near_m, i == 0 ? 2.0 : 0.0, 0.0);
+        assert_float_equal((double)c[0].far_m, i == 0 ? 50.0 : 0.0, 0.0);
+        assert_float_equal((double)c[1].near_m, i == 0 ? 0.5 : 0.0, 0.0);
+        assert_float_equal((double)c[1].far_m, 0.0, 0.0);
+        assert_float_equal((double)c[2].far_m, i == 0 ? 9.0 : 0.0, 0.0);
+        assert_float_equal((double)c[3].near_m, 0.0, 0.0);
+        assert_int_equal(gltf_logged(f, 'W', "znear 5 and zfar 4 left out"), i == 0);
+        gltf_reset(f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,6 +242,7 @@ int main(void)
         TEST(a_shift_comes_from_the_extras_of_a_camera),
         TEST(orthographic_cameras_show_twice_their_magnification),
         TEST(invalid_cameras_are_left_out_with_a_warning),
+        TEST(cameras_clip_by_znear_and_zfar_unless_they_are_told_not_to),
         TEST(a_node_of_no_size_has_no_camera),
         TEST(lights_have_the_defaults_of_the_extension),
         TEST(light_units_follow_generator_and_option),

@@ -392,6 +392,41 @@ static void the_paths_of_a_pixel_spread_evenly_over_the_shutter(void **state)
     assert_true(first[0] < first[1] || first[0] > first[1]);
 }
 
+/* A wall at 3 m, before a lamp at 6 m, between which nothing is but a surface that alpha takes
+ * away: a near plane behind the wall shows the lamp, a far one before the lamp nothing. */
+static void the_camera_sees_what_is_between_its_planes(void **state)
+{
+    (void)state;
+    static const float planes[][2] = {{0, 0}, {4, 0}, {4, 5.5f}, {0, 2}, {2, 4}};
+    static const double green[] = {0, 2, 0, 0, 0}, alpha[] = {1, 1, 0, 0, 1};
+    for (int i = 0; i < 5 * 3; i++) {
+        test_scene own;
+        scene_open(&own);
+        ppm_material_desc nothing;
+        ppm_material_desc_init(&nothing);
+        nothing.alpha_mode = PPM_ALPHA_BLEND;
+        nothing.base_color[3] = 0.0f;
+        add_quad(own.scene, material_lambert(own.scene, 0.0f), vec3(-5, -5, 3), vec3(10, 0, 0),
+                 vec3(0, 10, 0));
+        add_quad(own.scene, material_add(own.scene, &nothing), vec3(-5, -5, 1), vec3(10, 0, 0),
+                 vec3(0, 10, 0));
+        add_quad(own.scene, material_emitter(own.scene, 2.0f, 0.0f, false), vec3(-5, -5, 0),
+                 vec3(10, 0, 0), vec3(0, 10, 0));
+        camera_perspective(own.scene, vec3(0, 0, 6), vec3(0, 0, 0), 0.5f);
+        own.scene->cameras[0].near_m = planes[i / 3][0];
+        own.scene->cameras[0].far_m = planes[i / 3][1];
+        ppm_render_options options = render_options(1 + i % 3, 4, 1000);
+        options.is_transparent = 1;
+        float *picture = render_picture(own.scene, &options, 2);
+        for (int k = 0; k < 4 * 4 * 4; k += 4) {
+            assert_near(picture[k + 1], green[i / 3], 1e-5);
+            assert_near(picture[k + 3], alpha[i / 3], 1e-6);
+        }
+        free(picture);
+        scene_close(&own);
+    }
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -400,6 +435,7 @@ int main(void)
         WITH_SCENE(an_edge_is_the_integral_of_the_filter),
         WITH_SCENE(the_blur_of_an_edge_is_that_of_a_thin_lens),
         WITH_SCENE(the_plane_of_focus_is_sharp),
+        WITH_SCENE(the_camera_sees_what_is_between_its_planes),
         WITH_SCENE(without_a_distance_the_middle_of_the_picture_is_in_focus),
         WITH_SCENE(an_empty_middle_cannot_be_focused_on),
         WITH_SCENE(the_camera_of_the_scene_has_a_lens_of_its_own),
