@@ -13,7 +13,8 @@ extern "C" {
 enum { PPM_DITHER_DEFAULT = 0, PPM_DITHER_OFF = 1 }; /* the default is noise of one step */
 enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
 
-/* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. */
+/* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. These three are for the layers of
+ * light: those of other numbers are parts of their own then, packed by ZIP. */
 enum {
     PPM_COMPRESSION_DEFAULT = 0, /* ZIPS */
     PPM_COMPRESSION_NONE = 1,
@@ -21,7 +22,7 @@ enum {
     PPM_COMPRESSION_ZIPS = 3,  /* rows one by one: quick to scrub through */
     PPM_COMPRESSION_ZIP = 4,   /* 16 rows together: smaller */
     PPM_COMPRESSION_PIZ = 5,   /* wavelets: smallest for noise */
-    PPM_COMPRESSION_PXR24 = 6, /* 32-bit floats lose 8 bits: not for Cryptomattes */
+    PPM_COMPRESSION_PXR24 = 6, /* 32-bit floats lose 8 bits */
     PPM_COMPRESSION_DWAA = 7,  /* lossy, 32 rows together */
     PPM_COMPRESSION_DWAB = 8   /* lossy, 256 rows together */
 };

@@ -5,9 +5,11 @@
  * light group would split it: programs take what is behind the last dots for the pass and the
  * channel.
  *
- * The DWA compressions treat channels called R, G and B as colours, which they round; the small
- * letters are packed without loss (OpenEXR's ImfDwaCompressor, rules by the channel's suffix). Ids
- * and other exact values go by small letters therefore, as Blender writes its own Cryptomattes. */
+ * The DWA compressions treat channels called R, G, B, Y, RY and BY as colours, which they round;
+ * the small letters are packed without loss (OpenEXR's ImfDwaCompressor, rules by the channel's
+ * suffix). Ids and other exact colours go by small letters therefore, as Blender writes its own
+ * Cryptomattes; all that is not light is kept from lossy compressions by parts of its own
+ * (output_layers.c). */
 #include "api/layer_channels.h"
 
 #include <ctype.h>
@@ -89,29 +91,51 @@ static bool fill_layer(ppm_context *context, ppmi_layer_channels *all, uint32_t 
     return true;
 }
 
+bool ppmi_layer_is_data(const ppm_layer_info *layer)
+{
+    return layer->is_exact || strcmp(layer->channel_names[0], "R") != 0;
+}
+
+/* The layers that are data or those that are not, behind those that are listed. */
+static ppm_status list_some(const ppm_render *render, uint32_t count, bool is_any, bool is_data,
+                            ppmi_layer_channels *all)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t at = all->layer_count;
+        ppm_layer_info layer = {.size = sizeof layer};
+        const ppm_status status = ppm_render_get_layer(render, i, &layer);
+        if (status != PPM_STATUS_OK) return status;
+        if (!is_any && ppmi_layer_is_data(&layer) != is_data) continue;
+        all->layers[at] = layer;
+        all->numbers[at] = i;
+        all->first[at + 1] = all->first[at] + layer.channel_count;
+        all->layer_count++;
+    }
+    return PPM_STATUS_OK;
+}
+
 static ppm_status list_layers(ppm_context *context, const ppm_render *render, bool has_layers,
-                              ppmi_layer_channels *all)
+                              bool is_sorted, ppmi_layer_channels *all)
 {
     const uint32_t count = has_layers ? ppm_render_layer_count(render) : 1;
     all->layers = ppmi_alloc_zeroed(context, count, sizeof *all->layers);
     all->layer_names = ppmi_alloc_zeroed(context, count, sizeof *all->layer_names);
     all->first = ppmi_alloc_zeroed(context, count + 1, sizeof *all->first);
-    if (!all->layers || !all->layer_names || !all->first) return PPM_STATUS_OUT_OF_MEMORY;
-    all->layer_count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        all->layers[i].size = sizeof all->layers[i];
-        const ppm_status status = ppm_render_get_layer(render, i, &all->layers[i]);
-        if (status != PPM_STATUS_OK) return status;
-        all->first[i + 1] = all->first[i] + all->layers[i].channel_count;
+    all->numbers = ppmi_alloc_zeroed(context, count, sizeof *all->numbers);
+    if (!all->layers || !all->layer_names || !all->first || !all->numbers) {
+        return PPM_STATUS_OUT_OF_MEMORY;
     }
-    return PPM_STATUS_OK;
+    ppm_status status = list_some(render, count, !is_sorted, false, all);
+    all->data_begin = all->layer_count;
+    if (status == PPM_STATUS_OK && is_sorted) status = list_some(render, count, false, true, all);
+    return status;
 }
 
 ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
-                                    bool has_layers, ppmi_layer_channels *all)
+                                    bool has_layers, bool is_sorted, ppmi_layer_channels *all)
 {
     *all = (ppmi_layer_channels){0};
-    ppm_status status = list_layers(context, render, has_layers, all);
+    ppm_status status = list_layers(context, render, has_layers, is_sorted, all);
     if (status == PPM_STATUS_OK) {
         const uint32_t count = all->first[all->layer_count];
         all->channel_names = ppmi_alloc_zeroed(context, count, sizeof *all->channel_names);
@@ -135,6 +159,7 @@ void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *all)
     ppmi_free(context, all->channels);
     ppmi_free(context, all->channel_names);
     ppmi_free(context, all->first);
+    ppmi_free(context, all->numbers);
     ppmi_free(context, all->layer_names);
     ppmi_free(context, all->layers);
     *all = (ppmi_layer_channels){0};

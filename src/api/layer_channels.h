@@ -8,21 +8,28 @@
 #include "imageio/layered.h"
 #include "ppm/render.h"
 
-/* The channels of all layers of a session, in their order; layer i has those from first[i] on. */
+/* The channels of all layers of a session; layer i has those from first[i] on. */
 typedef struct ppmi_layer_channels {
     uint32_t layer_count;
     ppm_layer_info *layers;
-    char **layer_names; /* in the file */
-    uint32_t *first;    /* layer_count + 1 */
+    uint32_t *numbers;   /* of the layers in the session */
+    uint32_t data_begin; /* from this layer on they are numbers, before it they are light */
+    char **layer_names;  /* in the file */
+    uint32_t *first;     /* layer_count + 1 */
     char **channel_names;
     ppmi_layered_channel *channels;
 } ppmi_layer_channels;
 
 /* is_half: layers that bear it are stored as half floats; has_layers: all, else the picture alone,
- * which is the first of them. Returns OK, OUT_OF_MEMORY;
- * *out_channels is to be freed with deinit in both cases. */
+ * which is the first of them; is_sorted: those of numbers, not of light, come last, else data_begin
+ * is the number of layers. Returns OK, OUT_OF_MEMORY; *out_channels is to be freed with deinit in
+ * both cases. */
 ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *render, bool is_half,
-                                    bool has_layers, ppmi_layer_channels *out_channels);
+                                    bool has_layers, bool is_sorted,
+                                    ppmi_layer_channels *out_channels);
+
+/* Whether a layer is of numbers, which a lossy compression would spoil, not of light. */
+bool ppmi_layer_is_data(const ppm_layer_info *layer);
 void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *channels);
 
 #endif

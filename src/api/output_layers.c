@@ -1,5 +1,9 @@
 /* Layers are read from the session one by one. A file of one part interleaves them, so all are held
- * while it is written; one of many parts needs only the one that is being written. */
+ * while it is written; one of many parts needs only the one that is being written.
+ *
+ * A lossy compression is for light alone: DWAA and DWAB transform whatever ends in R, G, B or Y,
+ * and PXR24 rounds every float. Layers of other numbers then are parts of their own, without loss.
+ */
 #include "api/output_layers.h"
 
 #include <math.h>
@@ -41,6 +45,11 @@ ppm_status ppmi_output_layers_check(ppm_context *context, const ppm_output_optio
     return PPM_STATUS_OK;
 }
 
+static bool is_lossy(int32_t compression)
+{
+    return has_level(compression) || compression == PPM_COMPRESSION_PXR24;
+}
+
 /* As OpenImageIO writes it: "zips", "dwaa:45". */
 static void write_compression(const ppm_output_options *options, char *text, size_t size)
 {
@@ -67,7 +76,7 @@ typedef struct layer_source {
     const ppm_render *render;
     const char *path;
     const ppmi_layer_channels *channels;
-    bool is_multipart;
+    uint32_t common; /* layers that are interleaved in the first part; each other has its own */
     uint32_t width;
     size_t pixel_count;
     float **values; /* for each layer: its pixels, or NULL */
@@ -82,9 +91,10 @@ static ppm_status load_layer(layer_source *source, uint32_t index)
     if (!source->values[index]) {
         return ppmi_fail(source->context, PPM_STATUS_OUT_OF_MEMORY,
                          "%s: no memory for layer '%s'%s", source->path, layer->name,
-                         source->is_multipart ? "" : "; a file of many parts needs less");
+                         source->common > 1 ? "; a file of many parts needs less" : "");
     }
-    return ppm_render_read_layer(source->render, index, source->values[index], value_count);
+    return ppm_render_read_layer(source->render, source->channels->numbers[index],
+                                 source->values[index], value_count);
 }
 
 static void drop_layer(layer_source *source, uint32_t index)
@@ -108,11 +118,12 @@ static ppm_status read_rows(void *user, uint32_t part, uint32_t y, uint32_t row_
 {
     layer_source *const source = user;
     const ppmi_layer_channels *const all = source->channels;
-    const uint32_t begin = source->is_multipart ? part : 0;
-    const uint32_t end = source->is_multipart ? part + 1 : all->layer_count;
+    const uint32_t begin = part > 0 ? source->common + part - 1 : 0;
+    const uint32_t end = source->common + part;
     const size_t stride = all->first[end] - all->first[begin];
     const size_t first_pixel = (size_t)y * source->width;
-    if (source->is_multipart && part > 0) drop_layer(source, part - 1);
+    for (uint32_t i = 0; i < begin; i++)
+        drop_layer(source, i);
     for (uint32_t i = begin; i < end; i++) {
         const ppm_status status = load_layer(source, i);
         if (status != PPM_STATUS_OK) return status;
@@ -124,27 +135,35 @@ static ppm_status read_rows(void *user, uint32_t part, uint32_t y, uint32_t row_
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-/* One for each layer. The picture's is called rgba: Nuke shows such a part without its name. */
-static void fill_parts(const ppmi_layer_channels *all, ppmi_layered_part *parts)
+/* The first has the common layers, each other one. That of the picture is called rgba: Nuke shows
+ * such a part without its name. How many there are. */
+static uint32_t fill_parts(const layer_source *source, const ppm_output_options *options,
+                           ppmi_layered_part *parts)
 {
-    for (uint32_t i = 0; i < all->layer_count; i++) {
-        const bool is_picture = all->layers[i].kind == PPM_LAYER_COMBINED;
-        parts[i] = (ppmi_layered_part){.name = is_picture ? "rgba" : all->layer_names[i],
-                                       .channel_count = all->layers[i].channel_count,
-                                       .channels = all->channels + all->first[i]};
+    const ppmi_layer_channels *const all = source->channels;
+    const uint32_t count = all->layer_count - source->common + 1;
+    parts[0] = (ppmi_layered_part){.name = count > 1 ? "rgba" : NULL,
+                                   .channel_count = all->first[source->common],
+                                   .channels = all->channels};
+    for (uint32_t i = 1; i < count; i++) {
+        const uint32_t layer = source->common + i - 1;
+        const bool is_spared =
+            is_lossy(options->compression) && ppmi_layer_is_data(&all->layers[layer]);
+        parts[i] = (ppmi_layered_part){.name = all->layer_names[layer],
+                                       .channel_count = all->layers[layer].channel_count,
+                                       .channels = all->channels + all->first[layer],
+                                       .compression = is_spared ? "zip" : NULL};
     }
+    return count;
 }
 
 static ppm_status write_file(const ppm_output_options *options, const ppmi_output_header *header,
                              layer_source *source, ppmi_layered_part *parts)
 {
     const ppm_render_options *const rendered = ppm_render_get_options(source->render);
-    const ppmi_layer_channels *const all = source->channels;
     char compression[32];
     write_compression(options, compression, sizeof compression);
-    parts[0] = (ppmi_layered_part){.channel_count = all->first[all->layer_count],
-                                   .channels = all->channels};
-    if (source->is_multipart) fill_parts(all, parts);
+    const uint32_t part_count = fill_parts(source, options, parts);
     const ppmi_layered_file file = {
         .width = source->width,
         .height = rendered->crop[3] - rendered->crop[1],
@@ -154,7 +173,7 @@ static ppm_status write_file(const ppm_output_options *options, const ppmi_outpu
         .y = rendered->crop[1],
         .compression = compression,
         .tile_side = options->tile_side,
-        .part_count = source->is_multipart ? all->layer_count : 1,
+        .part_count = part_count,
         .parts = parts,
         .attribute_count = header->count,
         .attributes = header->attributes,
@@ -185,38 +204,21 @@ static ppm_status write_channels(const ppm_output_options *options,
     return status;
 }
 
-/* It keeps 24 bits of each number; ids have 32. */
-static ppm_status check_ids(ppm_context *context, const char *path,
-                            const ppm_output_options *options, const ppmi_layer_channels *channels)
-{
-    for (uint32_t i = 0; i < channels->layer_count; i++) {
-        const int32_t kind = channels->layers[i].kind;
-        if (options->compression != PPM_COMPRESSION_PXR24 || kind < PPM_LAYER_CRYPTO_OBJECT ||
-            kind > PPM_LAYER_CRYPTO_ASSET) {
-            continue;
-        }
-        return ppmi_fail(context, PPM_STATUS_INVALID_ARGUMENT,
-                         "%s: PXR24 would round the ids of layer '%s'", path,
-                         channels->layers[i].name);
-    }
-    return PPM_STATUS_OK;
-}
-
 ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *render,
                                     const char *path, const ppm_output_options *options,
                                     const ppmi_output_header *header)
 {
     const uint32_t *const crop = ppm_render_get_options(render)->crop;
     ppmi_layer_channels channels;
+    const bool is_sorted = is_lossy(options->compression) && !options->is_multipart;
     ppm_status status = ppmi_layer_channels_init(context, render, options->depth == PPM_DEPTH_HALF,
-                                                 !options->is_picture_only, &channels);
-    if (status == PPM_STATUS_OK) status = check_ids(context, path, options, &channels);
+                                                 !options->is_picture_only, is_sorted, &channels);
     if (status == PPM_STATUS_OK) {
         layer_source source = {.context = context,
                                .render = render,
                                .path = path,
                                .channels = &channels,
-                               .is_multipart = options->is_multipart && channels.layer_count > 1,
+                               .common = options->is_multipart ? 1 : channels.data_begin,
                                .width = crop[2] - crop[0],
                                .pixel_count = (size_t)(crop[2] - crop[0]) * (crop[3] - crop[1])};
         status = write_channels(options, header, &source);

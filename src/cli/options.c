@@ -381,8 +381,6 @@ static const char *fault_of_layers(const cli_options *options)
          "--denoise tells noise by the differences between passes: it needs 2 at least, better 16"},
         {options->cryptomatte_ranks > 0 && !has_crypto,
          "--cryptomatte-levels is about Cryptomattes, which --aov does not name (crypto)"},
-        {options->packing.kind == PPM_COMPRESSION_PXR24 && has_crypto,
-         "--exr-compression pxr24 rounds numbers, and the ids of Cryptomattes with them; take zip"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
         if (rules[i].is_idle) return rules[i].message;

@@ -7,6 +7,7 @@
 
 #include "imageio/file.h"
 #include "imageio/oiio_shim.h"
+#include "imageio/ringing.h"
 
 /* Rows that are held at once: whole rows of tiles, and of the largest block that a compression has
  * but DWAB's; no more than some 64 MiB. */
@@ -22,17 +23,41 @@ static uint32_t strip_rows(const ppmi_layered_file *file, uint32_t channels)
     return rows < file->height ? (uint32_t)rows : file->height;
 }
 
-/* Half floats end at 65504; what is brighter must not become infinite. */
-static void fit_halves(const ppmi_layered_part *part, size_t pixel_count, float *values)
+static const char *compression_of(const ppmi_layered_file *file, const ppmi_layered_part *part)
+{
+    return part->compression ? part->compression : file->compression;
+}
+
+/* Half floats end at 65504; what is brighter must not become infinite. DWAA and DWAB make halves of
+ * all that they transform. */
+static void fit_halves(const ppmi_layered_part *part, bool has_ringing, size_t pixel_count,
+                       float *values)
 {
     const float half_max = 65504;
     for (uint32_t c = 0; c < part->channel_count; c++) {
-        if (part->channels[c].store != PPMI_STORE_HALF) continue;
+        if (part->channels[c].store != PPMI_STORE_HALF && !has_ringing) continue;
         for (size_t i = 0; i < pixel_count; i++) {
             float *const value = &values[i * part->channel_count + c];
             if (!isnan(*value)) *value = fminf(fmaxf(*value, -half_max), half_max);
         }
     }
+}
+
+static ppm_status fit_rows(ppm_context *context, const char *path, const ppmi_layered_file *file,
+                           const ppmi_layered_part *part, uint32_t row_count, float *values)
+{
+    const char *const compression = compression_of(file, part);
+    const bool has_ringing = ppmi_layered_has_ringing(compression);
+    fit_halves(part, has_ringing, (size_t)row_count * file->width, values);
+    if (!has_ringing) return PPM_STATUS_OK;
+    const ppmi_ringing_strip strip = {.path = path,
+                                      .compression = compression,
+                                      .part = part,
+                                      .tile_side = file->tile_side,
+                                      .width = file->width,
+                                      .row_count = row_count,
+                                      .values = values};
+    return ppmi_imageio_limit_ringing(context, &strip);
 }
 
 static ppm_status write_part(ppm_context *context, const char *path, const ppmi_layered_file *file,
@@ -51,7 +76,8 @@ static ppm_status write_part(ppm_context *context, const char *path, const ppmi_
         const uint32_t left = file->height - y, rows = left < rows_max ? left : rows_max;
         status = file->read_rows(file->user, index, y, rows, values);
         if (status != PPM_STATUS_OK) break;
-        fit_halves(part, (size_t)rows * file->width, values);
+        status = fit_rows(context, path, file, part, rows, values);
+        if (status != PPM_STATUS_OK) break;
         status = ppmi_oiio_write_rows(context, writer, path, y, rows, values);
     }
     ppmi_free(context, values);

@@ -14,7 +14,12 @@ typedef struct ppmi_layered_part {
     const char *name; /* unique in the file; NULL in a file of one part */
     uint32_t channel_count;
     const ppmi_layered_channel *channels;
+    const char *compression; /* NULL: the file's */
 } ppmi_layered_part;
+
+/* Whether a compression makes channels of R, G, B and Y of what they are by a cosine transform,
+ * which overshoots beside what is bright (DWAA, DWAB). */
+bool ppmi_layered_has_ringing(const char *compression);
 
 typedef struct ppmi_layered_file {
     uint32_t width, height;                 /* what is stored */
@@ -34,7 +39,8 @@ typedef struct ppmi_layered_file {
 } ppmi_layered_file;
 
 /* Writes a new file beside path, flushes it and renames it to path; on failure path is untouched.
- * What is brighter than half floats can be is stored in them as their largest value. Returns OK,
+ * What is brighter than half floats can be is stored in them as their largest value, and with DWAA
+ * and DWAB what is beside it as much lower as it takes to be read as finite. Returns OK,
  * OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY, or what read_rows returned. */
 ppm_status ppmi_imageio_write_layered(ppm_context *context, const char *path,
                                       const ppmi_layered_file *file);

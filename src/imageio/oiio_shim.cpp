@@ -400,7 +400,8 @@ static ImageSpec spec_of_part(const ppmi_layered_file &file, uint32_t index)
         spec.tile_width = spec.tile_height = (int)file.tile_side;
         spec.tile_depth = 1;
     }
-    if (file.compression) spec.attribute("compression", file.compression);
+    const char *const compression = part.compression ? part.compression : file.compression;
+    if (compression) spec.attribute("compression", compression);
     if (part.name) spec.attribute("oiio:subimagename", part.name);
     spec.attribute("DateTime", "");
     for (uint32_t i = 0; i < attribute_count; i++)

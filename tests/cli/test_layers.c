@@ -40,7 +40,6 @@ static void wrong_options_are_explained(void **state)
         {"--exr-compression zip:9 tiny.gltf", "only dwaa and dwab have a level"},
         {"--exr-compression dwaa:0 tiny.gltf", "only dwaa and dwab have a level"},
         {"--exr-compression dwaa: tiny.gltf", "only dwaa and dwab have a level"},
-        {"--aov crypto --exr-compression pxr24 tiny.gltf", "rounds numbers"},
         {"--exr-tiles=8 tiny.gltf", "from 16 to 4096"},
         {"--exr-multipart=1 tiny.gltf", "takes no value"},
         {"--aov albedo -o a.png tiny.gltf", "layers of an .exr, which is not among the outputs"},

@@ -63,7 +63,7 @@ static void names_are_whole_and_differ(void **state)
     test_scene test;
     ppmi_layer_channels all;
     ppm_render *const render = open_render(&test);
-    assert_int_equal(ppmi_layer_channels_init(test.context, render, false, true, &all),
+    assert_int_equal(ppmi_layer_channels_init(test.context, render, false, true, false, &all),
                      PPM_STATUS_OK);
     find(&all, "R");
     find(&all, "Z");
@@ -92,7 +92,7 @@ static void half_floats_are_for_what_bears_them(void **state)
     test_scene test;
     ppmi_layer_channels all;
     ppm_render *const render = open_render(&test);
-    assert_int_equal(ppmi_layer_channels_init(test.context, render, true, true, &all),
+    assert_int_equal(ppmi_layer_channels_init(test.context, render, true, true, false, &all),
                      PPM_STATUS_OK);
     assert_int_equal(find(&all, "R")->store, PPMI_STORE_HALF);
     assert_int_equal(find(&all, "light.Key_001.R")->store, PPMI_STORE_HALF);
@@ -114,7 +114,7 @@ static void every_allocation_may_fail(void **state)
     size_t n = 1;
     for (; status == PPM_STATUS_OUT_OF_MEMORY; n++) {
         ppmi_alloc_fail_at(test.context, n);
-        status = ppmi_layer_channels_init(test.context, render, false, true, &all);
+        status = ppmi_layer_channels_init(test.context, render, false, true, false, &all);
         ppmi_alloc_fail_at(test.context, 0);
         ppmi_layer_channels_deinit(test.context, &all);
     }

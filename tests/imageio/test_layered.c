@@ -48,11 +48,11 @@ static float value_at(uint32_t channel, uint32_t x, uint32_t y)
 static const ppmi_layered_channel channels[CHANNELS] = {
     {"R", PPMI_STORE_HALF},          {"G", PPMI_STORE_HALF},  {"B", PPMI_STORE_HALF},
     {"caustics.R", PPMI_STORE_HALF}, {"Z", PPMI_STORE_FLOAT}, {"Crypto00.r", PPMI_STORE_FLOAT}};
-static const ppmi_layered_part whole = {NULL, CHANNELS, channels};
-static const ppmi_layered_part parts[] = {{"rgba", 3, channels},
-                                          {"caustics", 1, channels + 3},
-                                          {"depth", 1, channels + 4},
-                                          {"Crypto00", 1, channels + 5}};
+static const ppmi_layered_part whole = {NULL, CHANNELS, channels, NULL};
+static const ppmi_layered_part parts[] = {{"rgba", 3, channels, NULL},
+                                          {"caustics", 1, channels + 3, NULL},
+                                          {"depth", 1, channels + 4, NULL},
+                                          {"Crypto00", 1, channels + 5, NULL}};
 static const uint32_t first_channel[] = {0, 3, 4, 5};
 
 static bool rows_fail;
@@ -273,6 +273,65 @@ static void lossy_packing_spares_channels_that_are_no_colours(void **state)
     ppmi_layered_input_close(context, input);
 }
 
+/* Bright pixels, alone and in patches, on a dark ramp; a noise of its own in each channel. */
+static ppm_status read_hot_rows(void *user, uint32_t part, uint32_t y, uint32_t row_count,
+                                float *values)
+{
+    const ppmi_layered_file *const file = user;
+    const uint32_t count = file->parts[part].channel_count;
+    for (uint32_t i = 0; i < row_count * file->width; i++) {
+        const uint32_t x = i % file->width, row = y + i / file->width;
+        for (uint32_t c = 0; c < count; c++) {
+            const uint32_t noise = (x * 7919u + row * 104729u + c * 1299709u) * 2654435761u >> 16;
+            const bool is_hot = noise % 23 == 0 || (x > 30 && x < 41 && row > 12 && row < 19);
+            values[(size_t)i * count + c] =
+                is_hot ? 30000.0f + 40000.0f * (float)(noise % 64) : 0.01f * (float)x;
+        }
+    }
+    return PPM_STATUS_OK;
+}
+
+/* The cosine transform overshoots beside bright pixels: nothing finite may come back as infinite,
+ * whatever the level, nor may it be darkened more than it takes. */
+static void lossy_packing_of_bright_pixels_stays_finite(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"dwaa", "dwab"};
+    static const int levels[] = {1, 45, 200, 1000, 4000, 10000};
+    static const ppmi_layered_channel colors[2][4] = {{{"R", PPMI_STORE_FLOAT},
+                                                       {"G", PPMI_STORE_FLOAT},
+                                                       {"B", PPMI_STORE_FLOAT},
+                                                       {"light.Y", PPMI_STORE_HALF}},
+                                                      {{"R", PPMI_STORE_HALF},
+                                                       {"G", PPMI_STORE_HALF},
+                                                       {"B", PPMI_STORE_HALF},
+                                                       {"depth.Y", PPMI_STORE_FLOAT}}};
+    float *const values = calloc((size_t)WIDTH * HEIGHT * 4, sizeof *values);
+    for (int i = 0; i < 24; i++) {
+        char compression[24];
+        snprintf(compression, sizeof compression, "%s:%d", kinds[i % 2], levels[i / 4]);
+        const ppmi_layered_part part = {NULL, 4, colors[i / 2 % 2], NULL};
+        ppmi_layered_file file = plain_file();
+        file.compression = compression;
+        file.parts = &part;
+        file.read_rows = read_hot_rows;
+        file.tile_side = i % 3 == 1 ? 20 : 0;
+        assert_int_equal(write_layered("a.exr", file), PPM_STATUS_OK);
+        ppmi_layered_info info;
+        ppmi_layered_input *const input = open_layered("a.exr", &info);
+        assert_int_equal(ppmi_layered_input_read(context, input, 0, HEIGHT, values), PPM_STATUS_OK);
+        ppmi_layered_input_close(context, input);
+        float most = 0;
+        for (uint32_t k = 0; k < WIDTH * HEIGHT * 4; k++) {
+            if (!isfinite(values[k]))
+                fail_msg("%s: value %u is %g", compression, k, (double)values[k]);
+            most = fmaxf(most, values[k]);
+        }
+        if (levels[i / 4] <= 200) assert_true(most > 40000.0f); /* no more than is needed */
+    }
+    free(values);
+}
+
 static void parts_are_read_as_one_file(void **state)
 {
     (void)state;
@@ -382,6 +441,7 @@ int main(void)
         TEST(every_allocation_may_fail),
         TEST(channels_of_two_depths_are_read_again),
         TEST(lossy_packing_spares_channels_that_are_no_colours),
+        TEST(lossy_packing_of_bright_pixels_stays_finite),
         TEST(parts_are_read_as_one_file),
         TEST(tiles_are_read_in_rows),
         TEST(windows_and_attributes_are_kept),
