@@ -1,5 +1,5 @@
 #!/bin/sh
-# From a checkout on Debian 12 to a picture, or to the results of all tests, in one command:
+# From a checkout on Debian 12 or 13 to a picture, or to the results of all tests, in one command:
 #
 #   ./setup.sh render   installs what is needed, builds, renders a sample scene to out/
 #   ./setup.sh test     installs what is needed, builds, runs all tests

@@ -57,6 +57,10 @@ typedef struct ppm_output_options {
  * its folder takes new files. Returns OK, INVALID_ARGUMENT (ending) or OUTPUT_NOT_WRITABLE. */
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
+/* Whether there is a whole picture at path: a file of its ending's format, with its last bytes. Says
+ * nothing. out_width and out_height, of the whole picture in pixels, may be NULL. Any thread. */
+PPM_API int32_t ppm_output_is_whole(const char *path, uint32_t *out_width, uint32_t *out_height);
+
 /* Writes the picture so far of a session; the ending of path says the kind:
  *   .exr               scene-linear in the scene's working space, all layers of the session: the
  *                      picture as R, G, B, A, depth as Z, the others as LAYER.CHANNEL

@@ -16,22 +16,38 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { GROUP_NAME_MAX = 160 }; /* OpenEXR's names have at most 255 bytes */
+#include "render/crypto_name.h"
+
+/* Blender leaves out what is longer; OpenEXR's names have at most 255 bytes. Of a channel's name, a
+ * dot and a letter are not the layer's. */
+enum { CHANNEL_NAME_MAX = 63, LAYER_NAME_MAX = CHANNEL_NAME_MAX - 2, NAME_SIZE = 512 };
 
 /* The name of one light group as a part of a channel's name. */
-static void clean_group_name(const char *name, char *out, size_t size)
+static void clean_group_name(char *name)
 {
-    size_t length = strlen(name);
-    if (length >= size) {
-        length = size - 1;
-        while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
-            length--; /* not within a letter of UTF-8 */
+    for (; *name; name++) {
+        const unsigned char letter = (unsigned char)*name;
+        if (letter == '.' || iscntrl(letter)) *name = '_';
     }
-    for (size_t i = 0; i < length; i++) {
-        const unsigned char letter = (unsigned char)name[i];
-        out[i] = letter == '.' || iscntrl(letter) ? '_' : name[i];
-    }
-    out[length] = '\0';
+}
+
+/* At most length, and not within a letter of UTF-8. */
+static size_t whole_letters(const char *name, size_t length)
+{
+    while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
+        length--;
+    return length;
+}
+
+/* Cuts a name to length bytes, of which the last nine are a mark and a hash of the whole: names
+ * that begin alike stay apart, and each is the same in every file. */
+static void shorten_name(char *name, size_t length)
+{
+    enum { HASH_SIZE = 9 };
+    const uint32_t hash = ppmi_murmur3(name, strlen(name), 0);
+    if (strlen(name) <= length) return;
+    const size_t end = whole_letters(name, length - HASH_SIZE);
+    snprintf(name + end, HASH_SIZE + 1, "~%08x", hash);
 }
 
 static bool is_of_group(int32_t kind)
@@ -53,25 +69,31 @@ static char *name_layer(ppm_context *context, const ppmi_layer_channels *all, ui
     const ppm_layer_info *const layer = &all->layers[index];
     const char *const dot = is_of_group(layer->kind) ? strchr(layer->name, '.') : NULL;
     if (!dot) return ppmi_string_copy(context, layer->name);
-    char group[GROUP_NAME_MAX], name[GROUP_NAME_MAX + 40];
-    const int head = (int)(dot - layer->name);
-    clean_group_name(dot + 1, group, sizeof group);
-    snprintf(name, sizeof name, "%.*s.%s", head, layer->name, group);
-    for (uint32_t number = 2; is_taken(all, index, name); number++)
-        snprintf(name, sizeof name, "%.*s.%s_%u", head, layer->name, group, number);
+    char base[NAME_SIZE], name[NAME_SIZE];
+    snprintf(base, sizeof base, "%s", layer->name);
+    shorten_name(base, LAYER_NAME_MAX);
+    clean_group_name(base + (dot + 1 - layer->name));
+    snprintf(name, sizeof name, "%s", base);
+    for (uint32_t number = 2; is_taken(all, index, name); number++) {
+        snprintf(name, sizeof name, "%.400s_%u", base, number);
+        if (strlen(name) <= LAYER_NAME_MAX) continue;
+        const size_t most = whole_letters(base, LAYER_NAME_MAX - 11);
+        snprintf(name, sizeof name, "%.*s_%u", (int)most, base, number);
+    }
     return ppmi_string_copy(context, name);
 }
 
 static char *name_channel(ppm_context *context, const ppm_layer_info *layer, const char *layer_name,
                           uint32_t index)
 {
-    char name[GROUP_NAME_MAX + 80], channel[16];
+    char name[NAME_SIZE], channel[16];
     snprintf(channel, sizeof channel, "%s", layer->channel_names[index]);
     if (layer->is_exact && strcmp(layer->channel_names[0], "R") == 0) {
         channel[0] = (char)tolower((unsigned char)channel[0]);
     }
     const bool is_bare = layer->kind == PPM_LAYER_COMBINED || layer->kind == PPM_LAYER_DEPTH;
-    snprintf(name, sizeof name, "%s%s%s", is_bare ? "" : layer_name, is_bare ? "" : ".", channel);
+    snprintf(name, sizeof name, "%.480s%s%s", is_bare ? "" : layer_name, is_bare ? "" : ".",
+             channel);
     return ppmi_string_copy(context, name);
 }
 
@@ -147,6 +169,49 @@ ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *rend
     }
     if (status != PPM_STATUS_OUT_OF_MEMORY) return status;
     return ppmi_fail(context, status, "out of memory: names of layers");
+}
+
+/* ---- the manifest of names ------------------------------------------------------------------- */
+
+static bool is_renamed(const ppmi_layer_channels *all, uint32_t i)
+{
+    return strcmp(all->layer_names[i], all->layers[i].name) != 0;
+}
+
+/* Room for one pair, or for both ends, by what surrounds it: {"":"",} and a zero. */
+static size_t manifest_room(const ppmi_layer_channels *all)
+{
+    size_t room = 0;
+    for (uint32_t i = 0; i < all->layer_count; i++) {
+        if (!is_renamed(all, i)) continue;
+        room += ppmi_crypto_json_room(all->layer_names[i]) +
+                ppmi_crypto_json_room(all->layers[i].name) + 8;
+    }
+    return room;
+}
+
+ppm_status ppmi_layer_channels_manifest(ppm_context *context, const ppmi_layer_channels *all,
+                                        char **out_text)
+{
+    const size_t room = manifest_room(all);
+    *out_text = NULL;
+    if (room == 0) return PPM_STATUS_OK;
+    char *const text = ppmi_alloc(context, room + 3, 1);
+    if (!text)
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: names of layers");
+    char *to = text;
+    *to++ = '{';
+    for (uint32_t i = 0; i < all->layer_count; i++) {
+        if (!is_renamed(all, i)) continue;
+        if (to > text + 1) *to++ = ',';
+        to += ppmi_crypto_json_write(all->layer_names[i], to);
+        *to++ = ':';
+        to += ppmi_crypto_json_write(all->layers[i].name, to);
+    }
+    *to++ = '}';
+    *to = '\0';
+    *out_text = text;
+    return PPM_STATUS_OK;
 }
 
 void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *all)

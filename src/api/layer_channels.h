@@ -28,6 +28,11 @@ ppm_status ppmi_layer_channels_init(ppm_context *context, const ppm_render *rend
                                     bool has_layers, bool is_sorted,
                                     ppmi_layer_channels *out_channels);
 
+/* Which layers have other names in the file than in the session, by both: {"file's":"session's"}.
+ * *out_text is to be freed with ppmi_free; NULL: none has. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_layer_channels_manifest(ppm_context *context, const ppmi_layer_channels *channels,
+                                        char **out_text);
+
 /* Whether a layer is of numbers, which a lossy compression would spoil, not of light. */
 bool ppmi_layer_is_data(const ppm_layer_info *layer);
 void ppmi_layer_channels_deinit(ppm_context *context, ppmi_layer_channels *channels);

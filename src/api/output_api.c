@@ -12,8 +12,14 @@
 #include "color/icc.h"
 #include "imageio/format.h"
 #include "imageio/imageio.h"
+#include "imageio/whole.h"
 #include "render/render.h"
 #include "scene/scene.h"
+
+int32_t ppm_output_is_whole(const char *path, uint32_t *out_width, uint32_t *out_height)
+{
+    return path && ppmi_imageio_is_whole(path, out_width, out_height);
+}
 
 ppm_status ppm_output_check(ppm_context *context, const char *path)
 {

@@ -204,12 +204,24 @@ static ppm_status write_channels(const ppm_output_options *options,
     return status;
 }
 
+/* *out_names must outlive the writing. */
+static ppm_status add_names(ppm_context *context, const ppmi_layer_channels *channels,
+                            ppmi_output_header *header, char **out_names)
+{
+    const ppm_status status = ppmi_layer_channels_manifest(context, channels, out_names);
+    if (status == PPM_STATUS_OK && *out_names) {
+        ppmi_output_header_add(header, "ppm:layerNames", PPMI_ATTRIBUTE_STRING)->text = *out_names;
+    }
+    return status;
+}
+
 ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *render,
                                     const char *path, const ppm_output_options *options,
-                                    const ppmi_output_header *header)
+                                    ppmi_output_header *header)
 {
     const uint32_t *const crop = ppm_render_get_options(render)->crop;
     ppmi_layer_channels channels;
+    char *names = NULL;
     const bool is_sorted = is_lossy(options->compression) && !options->is_multipart;
     ppm_status status = ppmi_layer_channels_init(context, render, options->depth == PPM_DEPTH_HALF,
                                                  !options->is_picture_only, is_sorted, &channels);
@@ -221,8 +233,10 @@ ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *rend
                                .common = options->is_multipart ? 1 : channels.data_begin,
                                .width = crop[2] - crop[0],
                                .pixel_count = (size_t)(crop[2] - crop[0]) * (crop[3] - crop[1])};
-        status = write_channels(options, header, &source);
+        status = add_names(context, &channels, header, &names);
+        if (status == PPM_STATUS_OK) status = write_channels(options, header, &source);
     }
+    ppmi_free(context, names);
     ppmi_layer_channels_deinit(context, &channels);
     return status;
 }

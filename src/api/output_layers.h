@@ -11,6 +11,6 @@ ppm_status ppmi_output_layers_check(ppm_context *context, const ppm_output_optio
 /* Writes the file, with what header says. Returns as ppm_render_write. */
 ppm_status ppmi_output_layers_write(ppm_context *context, const ppm_render *render,
                                     const char *path, const ppm_output_options *options,
-                                    const ppmi_output_header *header);
+                                    ppmi_output_header *header);
 
 #endif

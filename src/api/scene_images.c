@@ -49,12 +49,58 @@ static ppm_status load_pixels(ppm_context *context, const ppm_image_desc *desc, 
     return ppmi_imageio_read_file(context, desc->path, name, out_pixels);
 }
 
-/* NaN and infinity in an HDR file would spread over the picture. */
-static void clean_floats(float *values, size_t count)
+/* NaN and infinity in an HDR file would spread over the picture. Infinite is what was too bright
+ * for the program or the format, mostly the sun in half floats: it becomes as bright as those can
+ * be, or as the brightest texel if that is more. */
+static void clean_floats(ppm_context *context, const char *name, float *values, size_t count)
 {
+    const float too_large = 1e30f, half_max = 65504.0f;
+    size_t infinite = 0, no_numbers = 0;
+    float most = half_max;
     for (size_t i = 0; i < count; i++) {
-        if (!(values[i] < 1e30f && values[i] > -1e30f)) values[i] = 0.0f;
+        const float size = fabsf(values[i]);
+        if (size < too_large) most = fmaxf(most, size);
     }
+    for (size_t i = 0; i < count; i++) {
+        if (isnan(values[i])) {
+            values[i] = 0.0f;
+            no_numbers++;
+        } else if (!(fabsf(values[i]) < too_large)) {
+            values[i] = copysignf(most, values[i]);
+            infinite++;
+        }
+    }
+    if (infinite > 0) {
+        ppmi_log(context, PPM_LOG_WARNING,
+                 "%s: %zu of its values are infinite: they are taken as %g, the largest", name,
+                 infinite, (double)most);
+    }
+    if (no_numbers > 0) {
+        ppmi_log(context, PPM_LOG_WARNING,
+                 "%s: %zu of its values are not numbers: they are taken as 0", name, no_numbers);
+    }
+}
+
+/* No surface reflects less than nothing, and no light takes light away. */
+static void clean_negatives(ppm_context *context, const char *name, ppmi_pixels *pixels)
+{
+    const uint32_t channels = pixels->channels, colors = channels < 3 ? 1 : 3;
+    const size_t count = (size_t)pixels->width * pixels->height;
+    const float of_filtering = -1e-4f;
+    size_t negative = 0;
+    for (size_t i = 0; i < count; i++) {
+        float *const color = pixels->f32 + i * channels;
+        bool is_negative = false;
+        for (uint32_t c = 0; c < colors; c++) {
+            is_negative = is_negative || color[c] < of_filtering;
+            color[c] = color[c] > 0.0f ? color[c] : 0.0f;
+        }
+        negative += is_negative;
+    }
+    if (negative == 0) return;
+    ppmi_log(context, PPM_LOG_WARNING,
+             "%s: %zu of its %zu pixels have a negative colour: it is taken as 0", name, negative,
+             count);
 }
 
 /* Wider than it was: grey becomes three channels, 8 bits floats of 0..1. OpenColorIO takes no less.
@@ -125,7 +171,10 @@ static ppm_status to_working_space(ppm_context *context, const ppm_color *color,
         return PPM_STATUS_OK;
     }
     const bool is_kept = input.kind == PPMI_INPUT_REC709 && (!differs || pixels->channels < 3);
-    if (is_kept && pixels->f32) return PPM_STATUS_OK;
+    if (is_kept && pixels->f32) {
+        clean_negatives(context, name, pixels);
+        return PPM_STATUS_OK;
+    }
     ppm_status status = widen(context, name, pixels);
     if (status != PPM_STATUS_OK) return status;
     float *const values = pixels->f32;
@@ -163,7 +212,8 @@ static ppm_status decode_image(ppm_context *context, const ppm_color *color,
 
     ppmi_image image = {.width = pixels.width, .height = pixels.height};
     if (pixels.f32) {
-        clean_floats(pixels.f32, (size_t)pixels.width * pixels.height * pixels.channels);
+        clean_floats(context, name, pixels.f32,
+                     (size_t)pixels.width * pixels.height * pixels.channels);
     }
     if (desc->role == PPM_IMAGE_COLOR) {
         status = to_working_space(context, color, desc, name, &pixels, &image);

@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "clock.h"
 #include "rescue.h"
@@ -101,6 +100,9 @@ int outputs_init(cli_outputs *outputs, const cli_options *options, const ppm_col
     memset(outputs, 0, sizeof *outputs);
     outputs->command = join_command(argc, argv);
     outputs->color = color;
+    outputs->width = options->size.width;
+    outputs->height = options->size.height;
+    outputs->is_cropped = options->crop.is_given;
     outputs->options = (ppm_output_options){
         .size = sizeof outputs->options,
         .exposure_ev = (float)options->exposure_ev,
@@ -180,10 +182,20 @@ void outputs_set_origin(cli_outputs *outputs, const ppm_asset *asset)
     outputs->options.xmp = ppm_asset_xmp(asset);
 }
 
+/* A picture of another size than is asked for is another picture. */
+static bool is_there(const cli_outputs *outputs, const char *path)
+{
+    uint32_t width, height;
+    if (!ppm_output_is_whole(path, &width, &height)) return false;
+    const bool is_part = outputs->is_cropped && !rescue_is_exr(path); /* no window is told */
+    return is_part || ((outputs->width == 0 || width == outputs->width) &&
+                       (outputs->height == 0 || height == outputs->height));
+}
+
 bool outputs_exist(const cli_outputs *outputs)
 {
     for (size_t i = 0; i < outputs->count; i++) {
-        if (access(outputs->paths[i], F_OK) != 0) return false;
+        if (!is_there(outputs, outputs->paths[i])) return false;
     }
     return true;
 }

@@ -20,6 +20,8 @@ typedef struct cli_outputs {
     char *command; /* the command line, for the pictures' metadata */
     ppm_output_options options;
     const ppm_color *color;
+    uint32_t width, height; /* that are asked for; 0: not said */
+    bool is_cropped;
     double seconds_refreshed; /* elapsed at the end of the last refresh; 0: none */
     double refresh_cost_s;    /* of the last refresh */
 } cli_outputs;
@@ -41,7 +43,7 @@ int outputs_select(cli_outputs *outputs, const cli_picture *picture);
 /* Takes over for the metadata what the file says about itself. asset must outlive the writing. */
 void outputs_set_origin(cli_outputs *outputs, const ppm_asset *asset);
 
-/* Whether all files of the present picture are there. */
+/* Whether all files of the present picture are there, whole and of the size that is asked for. */
 bool outputs_exist(const cli_outputs *outputs);
 
 /* Whether each could be written. The library has said what is wrong. Returns an exit status. */

@@ -26,7 +26,18 @@ static void say(const char *text)
     (void)written; /* nobody is left to tell */
 }
 
-static void stop(void)
+/* Ctrl-C lets the first pass finish, for something to look at. Who sends the others, a batch system
+ * or a shell that closes, ends the program soon in any case. */
+static void stop_first_pass(int number)
+{
+    if (number == SIGINT) {
+        say("\nppm-render: stopping after the first pass; once more to end at once\n");
+    } else {
+        ppm_render_cancel(atomic_load(&watched_render));
+    }
+}
+
+static void stop(int number)
 {
     if (atomic_fetch_add(&signal_count, 1) > 0) _exit(EXIT_SIGNAL);
     switch (atomic_load(&step)) {
@@ -34,7 +45,7 @@ static void stop(void)
         say("\nppm-render: stopped before the first pass; there is no picture\n");
         _exit(EXIT_SIGNAL);
     case STEP_FIRST_PASS:
-        say("\nppm-render: stopping after the first pass; once more to end at once\n");
+        stop_first_pass(number);
         break;
     case STEP_BETWEEN:
         say("\nppm-render: stopped between two pictures; those before are complete\n");
@@ -47,10 +58,9 @@ static void stop(void)
 
 static void on_signal(int number)
 {
-    (void)number;
     const int saved_errno = errno;
     atomic_fetch_add(&handlers_running, 1);
-    if (atomic_load(&step) != STEP_ENDING) stop();
+    if (atomic_load(&step) != STEP_ENDING) stop(number);
     atomic_fetch_sub(&handlers_running, 1);
     errno = saved_errno;
 }
@@ -64,6 +74,10 @@ void signals_install(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    struct sigaction hangup; /* nohup's programs do not hear it */
+    if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
+        sigaction(SIGHUP, &action, NULL);
+    }
     /* A reader of the messages that goes away must not take the render with it. */
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);

@@ -90,22 +90,61 @@ static ppm_status fail_output(ppm_context *context, const char *path, const char
                      reason);
 }
 
-/* path itself, or what it links to; *out_mode is that of an existing file. */
+/* Makes *path, of PATH_ROOM bytes, what the symbolic link there says. False when it is no link. */
+enum { PATH_ROOM = 4096, LINKS_MAX = 40 };
+static bool follow_link(char *path)
+{
+    char text[PATH_ROOM];
+    const ssize_t length = readlink(path, text, sizeof text - 1);
+    if (length <= 0) return false;
+    text[length] = 0;
+    const char *const slash = strrchr(path, '/');
+    const size_t folder = slash && text[0] != '/' ? (size_t)(slash + 1 - path) : 0;
+    if (folder + (size_t)length >= PATH_ROOM) return false;
+    memcpy(path + folder, text, (size_t)length + 1);
+    return true;
+}
+
+/* Where a path leads whose file is not there: behind links that wait for one. */
+static char *find_missing(ppm_context *context, const char *path)
+{
+    char at[PATH_ROOM];
+    if (strlen(path) >= sizeof at) return ppmi_string_copy(context, path);
+    strcpy(at, path);
+    for (int i = 0; i < LINKS_MAX && follow_link(at); i++) {
+    }
+    return ppmi_string_copy(context, at);
+}
+
+static ppm_status find_existing(ppm_context *context, const char *path, const struct stat *facts,
+                                char **out_target)
+{
+    const mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
+    if (!S_ISREG(facts->st_mode)) return fail_output(context, path, "not a regular file");
+    if (!(facts->st_mode & writable)) return fail_output(context, path, "the file is read-only");
+    if (access(path, W_OK) != 0) return fail_output(context, path, strerror(errno));
+    char *const resolved = realpath(path, NULL);
+    if (!resolved) return fail_output(context, path, strerror(errno));
+    *out_target = ppmi_string_copy(context, resolved);
+    free(resolved);
+    return PPM_STATUS_OK;
+}
+
+/* path itself, or what it links to; *out_mode is that of an existing file. One that may not be
+ * written is not replaced either, though its folder would allow it. */
 static ppm_status find_target(ppm_context *context, const char *path, char **out_target,
                               mode_t *out_mode)
 {
     struct stat facts;
-    char *resolved = NULL;
     if (stat(path, &facts) == 0) {
-        if (!S_ISREG(facts.st_mode)) return fail_output(context, path, "not a regular file");
+        const ppm_status status = find_existing(context, path, &facts, out_target);
+        if (status != PPM_STATUS_OK) return status;
         *out_mode = facts.st_mode & 0777;
-        resolved = realpath(path, NULL);
-        if (!resolved) return fail_output(context, path, strerror(errno));
-    } else if (errno != ENOENT) {
+    } else if (errno == ENOENT) {
+        *out_target = find_missing(context, path);
+    } else {
         return fail_output(context, path, strerror(errno));
     }
-    *out_target = ppmi_string_copy(context, resolved ? resolved : path);
-    free(resolved);
     if (*out_target) return PPM_STATUS_OK;
     return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to write it", path);
 }

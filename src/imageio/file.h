@@ -13,7 +13,8 @@ ppm_status ppmi_imageio_file_read(ppm_context *context, const char *path, const 
                                   void **out_bytes, size_t *out_byte_count);
 
 /* Writes bytes to a new file in the folder of path, flushes it to the disk and renames it to path.
- * A symbolic link is followed; anything at path that is not a regular file is refused. On failure
+ * A symbolic link is followed, also to where no file is yet; anything at path that is not a regular
+ * file, and a file that may not be written, is refused. On failure
  * path is as it was and the new file is gone. Returns OK, OUTPUT_NOT_WRITABLE, OUT_OF_MEMORY. */
 ppm_status ppmi_imageio_file_replace(ppm_context *context, const char *path, const void *bytes,
                                      size_t byte_count);

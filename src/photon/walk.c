@@ -212,6 +212,7 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
     const ppmi_lights *lights = walk->world->lights;
     ppmi_walker walker = {.world = walk->world};
     for (uint32_t i = begin; i < end; i++) {
+        if (atomic_load_explicit(walk->cancel, memory_order_relaxed)) break;
         ppmi_emission_sample sample = start_photon(walk, &walker, i);
         const float density = walk->guide ? ppmi_guide_warp(walk->guide, lights, &sample) : 1.0f;
         ppmi_emission emission;

@@ -38,6 +38,12 @@ typedef struct ppmi_job {
     const atomic_bool *cancel;
 } ppmi_job;
 
+/* Asked before each path: one may take long, where thousands of surfaces lie in one place. */
+static inline bool ppmi_job_is_cancelled(const ppmi_job *job)
+{
+    return atomic_load_explicit(job->cancel, memory_order_relaxed);
+}
+
 /* One way of computing pictures. state is the integrator's own. */
 typedef struct ppmi_integrator {
     const char *name;

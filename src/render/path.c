@@ -212,6 +212,7 @@ static void render_tile(const ppmi_job *job, path_state *state, uint32_t index, 
     ppmi_walker walker = {.world = &job->world};
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++) {
+            if (ppmi_job_is_cancelled(job)) return;
             const ppmi_camera_ray camera_ray = ppmi_start_camera_path(job, &walker, x, y, pass);
             ppmi_light_pass light = {0};
             const size_t pixel = (size_t)y * job->film.width + x;

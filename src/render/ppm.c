@@ -126,6 +126,7 @@ static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, ui
     ppmi_walker walker = {.world = &job->world};
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++) {
+            if (ppmi_job_is_cancelled(job)) return true;
             const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, state->epoch);
             const uint32_t pixel = y * job->film.width + x;
             state->direct[pixel] = vec3_splat(0.0f);

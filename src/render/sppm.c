@@ -149,6 +149,7 @@ static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_ti
     if (eye->layers) eye->planes = ppmi_light_film_clear_scratch(eye->layers);
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++) {
+            if (ppmi_job_is_cancelled(job)) return true; /* the caller looks, too */
             const ppmi_camera_ray ray = ppmi_start_camera_path(job, &walker, x, y, pass);
             eye->radiance[slot] = vec3_splat(0.0f);
             eye->first_point[slot] = (uint32_t)points->count;
@@ -206,6 +207,7 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index, p
                     &rays)) {
         return false;
     }
+    if (ppmi_job_is_cancelled(job)) return true;
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {
         for (uint32_t x = tile.x0; x < tile.x1; x++, slot++)
@@ -336,6 +338,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
         totals->failed = true;
         return;
     }
+    if (ppmi_job_is_cancelled(job)) return;
     const double middle = omp_get_wtime();
     uint32_t slot = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y++) {

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -289,6 +290,38 @@ static void only_missing_pictures_are_rendered(void **state)
                                        "a.3.png", NULL});
 }
 
+/* An empty file, the beginning of one, one of another size. */
+static void what_is_not_whole_is_rendered_again(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {"exr", "png", "jpg", "tif"};
+    for (int i = 0; i < 4; i++) {
+        char command[160], name[16];
+        snprintf(command, sizeof command,
+                 QUICK "--skip-existing --frames 1-4 -o w.%%d.%s moving.gltf", endings[i]);
+        run_well(command);
+        struct stat facts;
+        snprintf(name, sizeof name, "w.1.%s", endings[i]);
+        assert_int_equal(truncate(name, 0), 0);
+        snprintf(name, sizeof name, "w.2.%s", endings[i]);
+        assert_int_equal(stat(name, &facts), 0);
+        assert_int_equal(truncate(name, facts.st_size / 2), 0);
+        snprintf(name, sizeof name, "w.3.%s", endings[i]);
+        assert_int_equal(stat(name, &facts), 0);
+        assert_int_equal(truncate(name, facts.st_size - 1), 0);
+        const outcome again = run_well(command);
+        assert_contains(again.err, "3 pictures rendered, 1 skipped");
+        assert_contains(run_well(command).err, "0 pictures rendered, 4 skipped");
+        snprintf(command, sizeof command,
+                 QUICK "-s 40x20 --skip-existing --frames 1-4 -o w.%%d.%s moving.gltf", endings[i]);
+        assert_contains(run_well(command).err, "4 pictures rendered, 0 skipped");
+        for (int frame = 1; frame <= 4; frame++) {
+            snprintf(name, sizeof name, "w.%d.%s", frame, endings[i]);
+            assert_int_equal(remove(name), 0);
+        }
+    }
+}
+
 static void cameras_that_are_there_are_skipped(void **state)
 {
     (void)state;
@@ -405,6 +438,7 @@ int main(void)
         cmocka_unit_test(a_file_of_a_camera_alone_has_pictures),
         cmocka_unit_test(animations_that_are_not_played_are_told),
         cmocka_unit_test(only_missing_pictures_are_rendered),
+        cmocka_unit_test(what_is_not_whole_is_rendered_again),
         cmocka_unit_test(cameras_that_are_there_are_skipped),
         cmocka_unit_test(an_interrupted_frame_is_not_written),
         cmocka_unit_test(a_frame_to_be_skipped_when_there_is_whole),

@@ -97,6 +97,47 @@ static void a_termination_leaves_the_picture_so_far(void **state)
     assert_stops_with_pictures(SIGTERM, "");
 }
 
+/* A terminal that is closed. */
+static void a_hangup_leaves_the_picture_so_far(void **state)
+{
+    (void)state;
+    assert_stops_with_pictures(SIGHUP, "");
+}
+
+static void nohup_is_heeded(void **state)
+{
+    (void)state;
+    test_process process;
+    start_wrapped_program(&process, "trap '' HUP;", "-s 32x16 -n 1000 -p 100 -o n.exr tiny.gltf");
+    wait_for_text(&process, "pass 1/");
+    kill(process.pid, SIGHUP);
+    assert_int_equal(wait_for_end(&process), 0);
+    assert_null(strstr(process.err, "stopped by a signal"));
+    assert_int_equal(remove("n.exr"), 0);
+}
+
+/* A batch system does not wait for a pass of minutes. */
+static void a_termination_during_the_first_pass_ends_at_once(void **state)
+{
+    (void)state;
+    static const int numbers[] = {SIGTERM, SIGHUP};
+    static const char *const integrators[] = {"sppm", "path"};
+    for (int i = 0; i < 2; i++) {
+        char arguments[160];
+        test_process process;
+        snprintf(arguments, sizeof arguments,
+                 "-i %s -s 1024x1024 -n 2 -p 16M --threads 1 -o term.exr tiny.gltf",
+                 integrators[i]);
+        start_program(&process, arguments);
+        wait_for_text(&process, "rendering 1024 x 1024");
+        kill(process.pid, numbers[i]);
+        const int status = wait_for_end(&process);
+        if (status != 130) fail_msg("status %d: %s", status, process.err);
+        assert_contains(process.err, "stopped by a signal after 0 passes");
+        assert_int_equal(access("term.exr", F_OK), -1);
+    }
+}
+
 /* The scene is a pipe that nobody fills, so that reading it never ends. */
 static void a_signal_while_the_scene_is_read_ends_at_once(void **state)
 {
@@ -192,6 +233,9 @@ int main(void)
         cmocka_unit_test(a_full_disk_leaves_nothing_half_written),
         cmocka_unit_test(an_interrupt_leaves_the_picture_so_far),
         cmocka_unit_test(a_termination_leaves_the_picture_so_far),
+        cmocka_unit_test(a_hangup_leaves_the_picture_so_far),
+        cmocka_unit_test(nohup_is_heeded),
+        cmocka_unit_test(a_termination_during_the_first_pass_ends_at_once),
         cmocka_unit_test(a_signal_while_the_scene_is_read_ends_at_once),
         cmocka_unit_test(a_second_signal_ends_at_once),
         cmocka_unit_test(a_signal_during_the_first_pass_lets_it_finish),

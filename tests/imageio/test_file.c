@@ -242,6 +242,41 @@ static void every_allocation_may_fail(void **state)
     assert_holds("kept.txt", "new");
 }
 
+static void a_link_to_where_no_file_is_yet_is_followed(void **state)
+{
+    (void)state;
+    char target[512], folder[512];
+    snprintf(target, sizeof target, "%s", scratch_path("target.txt"));
+    assert_int_equal(symlink("target.txt", scratch_path("relative")), 0);
+    assert_int_equal(symlink(target, scratch_path("absolute")), 0);
+    assert_int_equal(symlink("relative", scratch_path("twice")), 0);
+    static const char *const links[] = {"relative", "absolute", "twice"};
+    for (int i = 0; i < 3; i++) {
+        struct stat facts;
+        assert_int_equal(ppmi_imageio_file_check(context, scratch_path(links[i])), PPM_STATUS_OK);
+        assert_int_equal(replace(links[i], "new"), PPM_STATUS_OK);
+        assert_holds("target.txt", "new");
+        assert_int_equal(lstat(scratch_path(links[i]), &facts), 0);
+        assert_true(S_ISLNK(facts.st_mode));
+        assert_int_equal(remove(target), 0);
+    }
+    snprintf(folder, sizeof folder, "%s", scratch_path("missing/target.txt"));
+    assert_int_equal(symlink(folder, scratch_path("nowhere")), 0);
+    assert_int_equal(replace("nowhere", "new"), PPM_STATUS_OUTPUT_NOT_WRITABLE);
+}
+
+static void a_read_only_file_is_not_replaced(void **state)
+{
+    (void)state;
+    assert_int_equal(replace("kept.txt", "old"), PPM_STATUS_OK);
+    assert_int_equal(chmod(scratch_path("kept.txt"), 0444), 0);
+    assert_int_equal(ppmi_imageio_file_check(context, scratch_path("kept.txt")),
+                     PPM_STATUS_OUTPUT_NOT_WRITABLE);
+    assert_int_equal(replace("kept.txt", "new"), PPM_STATUS_OUTPUT_NOT_WRITABLE);
+    assert_error_names("read-only");
+    assert_holds("kept.txt", "old");
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
@@ -258,6 +293,8 @@ int main(void)
         TEST(a_check_leaves_nothing),
         TEST(a_name_as_long_as_names_may_be_works),
         TEST(every_allocation_may_fail),
+        TEST(a_link_to_where_no_file_is_yet_is_followed),
+        TEST(a_read_only_file_is_not_replaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ static void add_light(ppm_scene *scene, const char *name)
     assert_int_equal(ppm_scene_add_light(scene, &desc, &id), PPM_STATUS_OK);
 }
 
-/* A session with a layer for each of five lights. */
+/* A session with a layer for each of six lights. */
 static ppm_render *open_render(test_scene *test)
 {
     scene_open(test);
@@ -39,6 +39,10 @@ static ppm_render *open_render(test_scene *test)
     add_light(test->scene, "Key.001_");
     add_light(test->scene, "a\nb");
     add_light(test->scene, long_name);
+    char other[sizeof long_name];
+    memcpy(other, long_name, sizeof other);
+    other[strlen(other) - 1] ^= 1; /* the last of so many */
+    add_light(test->scene, other);
     ppm_render_options options = render_options(PPM_INTEGRATOR_PATH, 4, 100);
     options.light_groups = PPM_LIGHT_GROUPS_NAMED;
     options.layers = PPM_LAYER_BIT(PPM_LAYER_LIGHT_GROUP) | PPM_LAYER_BIT(PPM_LAYER_VARIANCE) |
@@ -76,11 +80,33 @@ static void names_are_whole_and_differ(void **state)
     const uint32_t count = all.first[all.layer_count];
     for (uint32_t i = 0; i < count; i++) {
         const char *const name = all.channels[i].name;
-        assert_true(strlen(name) < 256);
-        assert_true(strncmp(name, "light.aaaa", 10) != 0 || !strstr(name, "\xc3."));
+        assert_true(strlen(name) < 64); /* Blender reads no longer ones */
+        assert_true(strncmp(name, "light.aaaa", 10) != 0 || !strstr(name, "\xc3~"));
         for (uint32_t k = 0; k < i; k++)
             assert_string_not_equal(name, all.channels[k].name);
     }
+    ppmi_layer_channels_deinit(test.context, &all);
+    ppm_render_destroy(render);
+    scene_close(&test);
+}
+
+/* Which is which is in the header. */
+static void names_that_are_changed_are_in_a_manifest(void **state)
+{
+    (void)state;
+    test_scene test;
+    ppmi_layer_channels all;
+    ppm_render *const render = open_render(&test);
+    char *text = NULL;
+    assert_int_equal(ppmi_layer_channels_init(test.context, render, false, true, false, &all),
+                     PPM_STATUS_OK);
+    assert_int_equal(ppmi_layer_channels_manifest(test.context, &all, &text), PPM_STATUS_OK);
+    assert_non_null(strstr(text, "\"light.Key_001\":\"light.Key.001\""));
+    assert_non_null(strstr(text, long_name));
+    assert_null(strstr(text, "variance"));
+    assert_int_equal(text[0], '{');
+    assert_int_equal(text[strlen(text) - 1], '}');
+    ppmi_free(test.context, text);
     ppmi_layer_channels_deinit(test.context, &all);
     ppm_render_destroy(render);
     scene_close(&test);
@@ -128,6 +154,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_are_whole_and_differ),
+        cmocka_unit_test(names_that_are_changed_are_in_a_manifest),
         cmocka_unit_test(half_floats_are_for_what_bears_them),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -1,4 +1,5 @@
 /* Several images at once: ppm_scene_add_images. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -126,11 +127,42 @@ static void each_allocation_that_fails_costs_one_image_or_all(void **state)
     assert_true(n > 2 * COUNT); /* pixels and names */
 }
 
+/* Infinite is what was too bright for the file: as bright as halves are, or as its brightest. */
+static void floats_that_no_picture_can_have_are_mended(void **state)
+{
+    (void)state;
+    static const float values[2][6] = {{INFINITY, NAN, -2.0f, 0.5f, -INFINITY, 4.0f},
+                                       {INFINITY, 1e6f, 3e38f, 0.5f, -1e-6f, 4.0f}};
+    static const float color[2][6] = {{65504, 0, 0, 0.5f, 0, 4}, {1e6f, 1e6f, 1e6f, 0.5f, 0, 4}};
+    static const float data[2][6] = {{65504, 0, -2, 0.5f, -65504, 4},
+                                     {1e6f, 1e6f, 1e6f, 0.5f, -1e-6f, 4}};
+    for (int i = 0; i < 4; i++) {
+        ppm_image_id id = 0;
+        const ppm_image_desc desc = {.size = sizeof desc,
+                                     .name = "sky.exr",
+                                     .role = i < 2 ? PPM_IMAGE_COLOR : PPM_IMAGE_DATA,
+                                     .pixels = values[i % 2],
+                                     .pixel_type = PPM_PIXELS_F32,
+                                     .width = 2,
+                                     .height = 1,
+                                     .channels = 3};
+        assert_int_equal(ppm_scene_add_image(test.scene, &desc, &id), PPM_STATUS_OK);
+        const float *const got = test.scene->images[id - 1].f32;
+        const float *const expected = i < 2 ? color[i % 2] : data[i % 2];
+        for (int k = 0; k < 6; k++) {
+            if (got[k] != expected[k]) {
+                fail_msg("%d, %d: %g, not %g", i, k, (double)got[k], (double)expected[k]);
+            }
+        }
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_scene, close_scene)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(floats_that_no_picture_can_have_are_mended),
         TEST(bad_arguments_are_refused_and_nothing_is_added),
         TEST(images_that_fail_do_not_keep_others_out),
         TEST(each_allocation_that_fails_costs_one_image_or_all),
