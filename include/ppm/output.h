@@ -13,8 +13,8 @@ extern "C" {
 enum { PPM_DITHER_DEFAULT = 0, PPM_DITHER_OFF = 1 }; /* the default is noise of one step */
 enum { PPM_DEPTH_DEFAULT = 0, PPM_DEPTH_HALF = 1, PPM_DEPTH_FLOAT = 2 };
 
-/* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. These three are for the layers of
- * light: those of other numbers are parts of their own then, packed by ZIP. */
+/* How an EXR is packed; all but DWAA, DWAB and PXR24 keep every bit. These three are for the layers
+ * of light: those of other numbers are parts of their own then, packed by ZIP. */
 enum {
     PPM_COMPRESSION_DEFAULT = 0, /* ZIPS */
     PPM_COMPRESSION_NONE = 1,
@@ -57,8 +57,9 @@ typedef struct ppm_output_options {
  * its folder takes new files. Returns OK, INVALID_ARGUMENT (ending) or OUTPUT_NOT_WRITABLE. */
 PPM_API ppm_status ppm_output_check(ppm_context *context, const char *path);
 
-/* Whether there is a whole picture at path: a file of its ending's format, with its last bytes. Says
- * nothing. out_width and out_height, of the whole picture in pixels, may be NULL. Any thread. */
+/* Whether there is a whole picture at path: a file of its ending's format, with its last bytes.
+ * Says nothing. out_width and out_height, of the whole picture in pixels, may be NULL. Any thread.
+ */
 PPM_API int32_t ppm_output_is_whole(const char *path, uint32_t *out_width, uint32_t *out_height);
 
 /* Writes the picture so far of a session; the ending of path says the kind:

@@ -3,8 +3,9 @@
  *
  * The choice between gathering and going on is made lobe by lobe: at each surface the path draws
  * either the group of lobes that gather (and ends there) or the group that goes on, by their
- * albedos. A plastic thus shows its diffuse base by photons and its reflections by tracing. While it
- * may split a path draws nothing: it gathers and goes on by each lobe, through glass and off it. */
+ * albedos. A plastic thus shows its diffuse base by photons and its reflections by tracing. While
+ * it may split a path draws nothing: it gathers and goes on by each lobe, through glass and off it.
+ */
 #include "photon/eye.h"
 
 #include "transport/roulette.h"

@@ -89,9 +89,9 @@ static void write_render(const char *path, render_file file)
     };
     for (uint32_t i = 0; i < CHANNELS; i++) {
         channels[i] = (ppmi_layered_channel){names[i], PPMI_STORE_FLOAT};
-        parts[i] = (ppmi_layered_part){names[i], 1, &channels[i]};
+        parts[i] = (ppmi_layered_part){names[i], 1, &channels[i], NULL};
     }
-    const ppmi_layered_part whole = {NULL, file.channel_count, channels};
+    const ppmi_layered_part whole = {NULL, file.channel_count, channels, NULL};
     const ppmi_layered_file layered = {
         .width = file.width,
         .height = HEIGHT,
