@@ -125,6 +125,7 @@ bool ppmi_accel_intersect_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
                                    ppmi_hit_filter *filter, ppmi_hit *out_hit)
 {
     struct RTCRayHit query;
+    if (!is_within_reach(ray)) return false;
     query.ray = embree_ray(ray);
     filtered with = {.accel = accel, .filter = filter};
     intersect_with(accel, &query, &with.context, ask);
@@ -136,6 +137,7 @@ bool ppmi_accel_intersect_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
 bool ppmi_accel_occluded_filtered(const ppmi_accel *accel, const ppmi_ray *ray,
                                   ppmi_hit_filter *filter)
 {
+    if (!is_within_reach(ray)) return false;
     struct RTCRay query = embree_ray(ray);
     filtered with = {.accel = accel, .filter = filter};
 #if RTC_VERSION_MAJOR >= 4

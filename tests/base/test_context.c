@@ -51,6 +51,26 @@ static void failure_is_logged_and_kept(void **state)
     ppm_context_destroy(context);
 }
 
+static void control_characters_are_shown_and_not_obeyed(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    const ppm_context_desc desc = {.size = sizeof desc, .log = record, .log_user = &log};
+    ppm_context *context = NULL;
+    assert_int_equal(ppm_context_create(&desc, &context), PPM_STATUS_OK);
+    ppmi_log(context, PPM_LOG_WARNING, "a%sb",
+             "\x1b[31m\a\x7f\n\xc2\x9b"
+             "2J \xc3\xa9");
+    assert_string_equal(log.text, "a\\x1b[31m\\x07\\x7f\\x0a\\xc2\\x9b2J \xc3\xa9"
+                                  "b");
+    char many[4000];
+    memset(many, '\x1b', sizeof many - 1);
+    many[sizeof many - 1] = '\0';
+    ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s", many);
+    assert_memory_equal(log.text, "\\x1b\\x1b", 8);
+    ppm_context_destroy(context);
+}
+
 static void memory_is_counted_and_can_fail(void **state)
 {
     (void)state;
@@ -128,6 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refuses_missing_out),
         cmocka_unit_test(failure_is_logged_and_kept),
+        cmocka_unit_test(control_characters_are_shown_and_not_obeyed),
         cmocka_unit_test(memory_is_counted_and_can_fail),
         cmocka_unit_test(a_fork_keeps_its_messages_until_it_is_joined),
         cmocka_unit_test(a_fork_uses_the_memory_of_its_parent),
