@@ -174,6 +174,7 @@ bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, c
     if (!emitted || !(probability > 0.0f)) return false;
     out_emission->ray.time = time;
     out_emission->emitter = i;
+    out_emission->is_far = i >= lights->near_count;
     out_emission->power = vec3_scale(out_emission->power, 1.0f / probability);
     return !vec3_is_black(out_emission->power);
 }

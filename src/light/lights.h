@@ -91,6 +91,7 @@ typedef struct ppmi_emission {
     ppmi_ray ray;
     ppmi_vec3 power;
     uint32_t emitter;
+    bool is_far; /* from a directional light, a sun or the environment */
 } ppmi_emission;
 
 /* Which of at most groups groups of lights u_pick chooses: lights of one group take u alike. Lamps

@@ -8,6 +8,7 @@
 #include "photon/adjoint.h"
 
 #include "transport/roulette.h"
+#include "transport/solid.h"
 
 /* Photons are handed to threads by the chunk; a chunk's photons stay together, so that their order
  * can be restored. */
@@ -211,6 +212,7 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
 {
     const ppmi_lights *lights = walk->world->lights;
     ppmi_walker walker = {.world = walk->world};
+    ppmi_solids_memory memory = {.is_known = false};
     for (uint32_t i = begin; i < end; i++) {
         if (atomic_load_explicit(walk->cancel, memory_order_relaxed)) break;
         ppmi_emission_sample sample = start_photon(walk, &walker, i);
@@ -218,6 +220,8 @@ static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint3
         ppmi_emission emission;
         if (!ppmi_lights_emit_at(lights, walker.time, sample.pick, sample.u, &emission)) continue;
         emission.power = vec3_scale(emission.power, 1.0f / density);
+        walker.interior =
+            ppmi_solids_around_photon(walk->world, &emission.ray, emission.is_far, &memory);
         if (!walk_photon(context, walk, &walker, emission, i, lists)) return false;
     }
     *rays += walker.rays;

@@ -152,3 +152,19 @@ ppmi_interior ppmi_solids_around_at(const ppmi_world *world, ppmi_vec3 position,
         ppmi_interior_enter(&ordered, around.materials[i - 1]);
     return ordered;
 }
+
+ppmi_interior ppmi_solids_around_photon(const ppmi_world *world, const ppmi_ray *ray, bool is_far,
+                                        ppmi_solids_memory *memory)
+{
+    if (is_far || !ppmi_columns_hold(&world->columns, ray->origin)) return (ppmi_interior){0};
+    const ppmi_vec3 p = memory->position, q = ray->origin;
+    const bool is_known =
+        memory->is_known && p.x == q.x && p.y == q.y && p.z == q.z && memory->time == ray->time;
+    if (!is_known) {
+        memory->is_known = true;
+        memory->position = ray->origin;
+        memory->time = ray->time;
+        memory->interior = ppmi_solids_around_at(world, ray->origin, ray->time);
+    }
+    return memory->interior;
+}

@@ -18,6 +18,17 @@ void ppmi_solid_refract(ppmi_walker *walker, ppmi_vec3 direction, ppmi_vertex *v
  * an open sheet of water has its inside below. */
 ppmi_interior ppmi_solids_around_at(const ppmi_world *world, ppmi_vec3 position, float time);
 
+/* The solids that a photon begins in; far: from infinitely far, where there is none. The last
+ * answer is kept in memory: photons of a lamp without size ask once. */
+typedef struct ppmi_solids_memory {
+    bool is_known;
+    ppmi_vec3 position;
+    float time;
+    ppmi_interior interior;
+} ppmi_solids_memory;
+ppmi_interior ppmi_solids_around_photon(const ppmi_world *world, const ppmi_ray *ray, bool is_far,
+                                        ppmi_solids_memory *memory);
+
 /* The same as the shutter opens. */
 static inline ppmi_interior ppmi_solids_around(const ppmi_world *world, ppmi_vec3 position)
 {

@@ -25,6 +25,7 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
             world->has_single_sided = true;
         world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
     }
+    ppmi_columns_init(&world->columns, scene);
     world->has_lamps = lights && ppmi_lights_have_lamps(lights);
     for (uint32_t i = 0; i < scene->image_count; i++)
         world->has_textures = world->has_textures || scene->images[i].mip_count > 0;

@@ -8,6 +8,7 @@
 #include "shading/bsdf.h"
 #include "shading/footprint.h"
 #include "shading/spectrum.h"
+#include "transport/columns.h"
 #include "transport/contact.h"
 #include "transport/interior.h"
 
@@ -27,6 +28,7 @@ typedef struct ppmi_world {
     bool has_scattering;  /* some medium scatters */
     ppmi_vec3 fog_center; /* the ball that the fog fills */
     float fog_radius;
+    ppmi_columns columns; /* where photons may begin in solids */
 } ppmi_world;
 
 /* Fills in a world over parts that must outlive it; the scene is frozen. */

@@ -297,6 +297,38 @@ static void what_stands_in_a_solid_is_known_to(void **state)
     assert_int_equal(ppmi_solids_around(&world.world, vec3(24, 1, 24)).count, 0);
 }
 
+/* Photons ask for what is around them only where there may be something. */
+static void photons_know_the_solids_that_they_begin_in(void **state)
+{
+    (void)state;
+    ppmi_rng rng = ppmi_rng_start(8, PPMI_STREAM_PHOTON, 0);
+    for (int i = 0; i < 30; i++) { /* more than are told apart */
+        const ppmi_vec3 low =
+            vec3(20 * ppmi_rng_float(&rng), 9 * ppmi_rng_float(&rng), 20 * ppmi_rng_float(&rng));
+        add_box(solid(1.4f, 0), low, vec3_add(low, vec3(1, 2, 1.5f)));
+    }
+    add_quad(test.scene, solid(1.3f, 0), vec3(22, 3, 2), vec3(0, 0, 9), vec3(9, 0, 0));
+    world_open(&world, &test);
+    ppmi_solids_memory memory = {.is_known = false};
+    uint32_t inside = 0, outside = 0;
+    for (int i = 0; i < 4000; i++) {
+        const ppmi_ray ray = {.origin =
+                                  vec3(32 * ppmi_rng_float(&rng), 14 * ppmi_rng_float(&rng) - 2,
+                                       22 * ppmi_rng_float(&rng))};
+        const ppmi_interior expected = ppmi_solids_around(&world.world, ray.origin);
+        const ppmi_interior found = ppmi_solids_around_photon(&world.world, &ray, false, &memory);
+        const ppmi_interior again = ppmi_solids_around_photon(&world.world, &ray, false, &memory);
+        assert_int_equal(found.count, expected.count);
+        assert_int_equal(again.count, expected.count);
+        for (uint32_t k = 0; k < found.count; k++)
+            assert_int_equal(found.materials[k], expected.materials[k]);
+        inside += found.count > 0;
+        outside += found.count == 0;
+        assert_int_equal(ppmi_solids_around_photon(&world.world, &ray, true, &memory).count, 0);
+    }
+    assert_true(inside > 100 && outside > 100);
+}
+
 /* Rays down through the glass end on the table below it, in optical contact, wherever the faces lie
  * by rounding; rays up from the table are in the glass. */
 static void check_table(float glass_low, ppmi_vec3 moved)
@@ -443,6 +475,7 @@ int main(void)
         WITH_SCENE(an_open_sheet_has_water_on_one_side),
         WITH_SCENE(a_camera_in_water_sees_total_reflection),
         WITH_SCENE(what_stands_in_a_solid_is_known_to),
+        WITH_SCENE(photons_know_the_solids_that_they_begin_in),
         WITH_SCENE(a_glass_on_a_table_does_not_leak),
         WITH_SCENE(a_lamp_inside_coloured_glass_is_dimmed),
         WITH_SCENE(a_thing_inside_coloured_glass_is_lit_through_it),
