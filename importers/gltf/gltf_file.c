@@ -31,6 +31,26 @@ static bool next_chunk(const unsigned char *file, size_t end, size_t *at, uint32
     return true;
 }
 
+static const char byte_order_mark[] = "\xef\xbb\xbf";
+
+/* What some writers put around the JSON of a GLB, though it has to begin with '{' and be padded
+ * with spaces, and what other viewers read. */
+static void trim_json(ppmi_gltf_reader *reader)
+{
+    if (reader->json_length >= 3 && memcmp(reader->json, byte_order_mark, 3) == 0) {
+        reader->json += 3;
+        reader->json_length -= 3;
+        ppmi_gltf_note_feature(reader, "byte order mark in chunk 0", PPM_FEATURE_IGNORED,
+                               "the specification forbids it");
+    }
+    const size_t length = reader->json_length;
+    while (reader->json_length > 0 && reader->json[reader->json_length - 1] == '\0')
+        reader->json_length--;
+    if (reader->json_length == length) return;
+    ppmi_gltf_note_feature(reader, "NUL bytes behind the JSON of chunk 0", PPM_FEATURE_IGNORED,
+                           "the specification asks for spaces");
+}
+
 static ppm_status split_glb(ppmi_gltf_reader *reader)
 {
     const unsigned char *file = reader->file;
@@ -57,6 +77,7 @@ static ppm_status split_glb(ppmi_gltf_reader *reader)
     }
     reader->json = (const char *)bytes;
     reader->json_length = bytes_length;
+    trim_json(reader);
     if (at == length) return PPM_STATUS_OK;
     if (!next_chunk(file, length, &at, &type, &bytes, &bytes_length)) {
         return ppmi_gltf_invalid(reader, "chunk 1", "it is longer than the file");
@@ -70,7 +91,6 @@ static ppm_status split_glb(ppmi_gltf_reader *reader)
 
 ppm_status ppmi_gltf_read_file(ppmi_gltf_reader *reader)
 {
-    static const char byte_order_mark[] = "\xef\xbb\xbf";
     const char *reason;
     const ppm_status status =
         ppmi_gltf_map_open(reader->context, reader->path, 0, &reader->file_map, &reason);

@@ -63,6 +63,30 @@ static void a_glb_is_read(void **state)
     assert_memory_equal(f->scene->meshes[0].primitives[0].positions, triangle, 36);
 }
 
+/* Three bytes before the JSON and some behind it, in a chunk that is longer by four. */
+static void what_writers_put_around_the_json_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    unsigned char bytes[1024];
+    size_t bin;
+    const size_t size = make_glb(bytes, &bin) + 4, text = sizeof glb_json - 1;
+    memmove(bytes + bin + 4, bytes + bin, 44);
+    put_u32(bytes + 8, size);
+    put_u32(bytes + 12, bin + 4 - 20);
+    memset(bytes + 20, 0, bin + 4 - 20);
+    memcpy(bytes + 20, "\xef\xbb\xbf", 3);
+    memcpy(bytes + 23, glb_json, text);
+    for (int i = 0; i < 2; ++i) {
+        f->options.strict = i == 1;
+        assert_gltf_status(f, import_glb(f, bytes, size),
+                           i == 0 ? PPM_STATUS_OK : PPM_STATUS_INPUT_UNSUPPORTED);
+        assert_gltf_logged(f, 'W', "byte order mark in chunk 0");
+        assert_gltf_logged(f, 'W', "NUL bytes behind the JSON of chunk 0");
+    }
+    bytes[40] = 0; /* inside of the JSON it stays an error */
+    assert_gltf_status(f, import_glb(f, bytes, size), PPM_STATUS_INPUT_INVALID);
+}
+
 static void every_truncation_of_a_glb_is_refused(void **state)
 {
     gltf_fixture *f = *state;
@@ -245,6 +269,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(a_glb_is_read),
+        TEST(what_writers_put_around_the_json_is_told),
         TEST(every_truncation_of_a_glb_is_refused),
         TEST(lies_in_glb_headers_are_refused),
         TEST(binary_gltf_1_is_named),
