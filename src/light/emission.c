@@ -21,6 +21,8 @@ static bool emit_triangle(const ppmi_lights *lights, const ppmi_emitter *e, floa
     emission->ray = ppmi_surface_ray(&surface, direction);
     const ppmi_vec3 radiance = ppmi_emitter_radiance(lights, &surface, direction);
     emission->power = vec3_scale(radiance, PPMI_PI * (float)e->sides / pdf);
+    const float opacity = ppmi_surface_opacity(lights->scene, &surface);
+    emission->crowding = ppmi_lights_crowding(lights, vec3_scale(radiance, 1.0f / opacity));
     return true;
 }
 
@@ -102,9 +104,14 @@ static bool emit_punctual(const ppmi_lights *lights, const ppmi_punctual *light,
 static bool emit_lamp(const ppmi_lights *lights, const ppmi_lamp *lamp, const float u[4],
                       ppmi_emission *emission)
 {
-    if (lamp->shape == PPMI_LAMP_BALL) return emit_punctual(lights, lamp->light, u, emission);
-    emission->ray = ppmi_lamp_flat_ray(lamp, u);
-    emission->power = vec3_scale(lamp->light->intensity, PPMI_PI * lamp->area);
+    if (lamp->shape == PPMI_LAMP_BALL) {
+        if (!emit_punctual(lights, lamp->light, u, emission)) return false;
+    } else {
+        emission->ray = ppmi_lamp_flat_ray(lamp, u);
+        emission->power = vec3_scale(lamp->light->intensity, PPMI_PI * lamp->area);
+    }
+    const ppmi_vec3 radiance = ppmi_lamp_radiance(lights->scene, lamp, emission->ray.direction);
+    emission->crowding = ppmi_lights_crowding(lights, radiance);
     return true;
 }
 
@@ -116,6 +123,7 @@ static void emit_far(const ppmi_lights *lights, ppmi_vec3 towards, ppmi_vec3 rad
     emission->ray = ppmi_light_extent_ray(&lights->extent, direction, u[0], u[1]);
     emission->power =
         vec3_scale(radiance, ppmi_light_extent_shadow(&lights->extent, direction) / pdf);
+    emission->crowding = ppmi_lights_crowding(lights, ppmi_lights_environment(lights, towards));
 }
 
 static void emit_sun(const ppmi_lights *lights, const ppmi_sun *sun, const float u[4],
@@ -135,6 +143,11 @@ static bool emit_environment(const ppmi_lights *lights, double u_cell, const flo
     emit_far(lights, towards, ppmi_environment_map_radiance(&lights->environment, towards), pdf, u,
              emission);
     return true;
+}
+
+float ppmi_lights_crowding(const ppmi_lights *lights, ppmi_vec3 radiance)
+{
+    return lights->power > 0.0f ? vec3_max_component(radiance) / lights->power : 0.0f;
 }
 
 uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups)
@@ -160,6 +173,7 @@ bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, c
     const ppmi_emitter *e = &lights->emitters[i];
     const float probability = ppmi_alias_probability(&lights->by_power, i);
     bool emitted = true;
+    out_emission->crowding = INFINITY;
     if (e->kind == PPMI_EMITTER_TRIANGLE) {
         emitted = emit_triangle(lights, e, time, u, out_emission);
     } else if (e->kind == PPMI_EMITTER_PUNCTUAL) {

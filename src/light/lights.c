@@ -214,6 +214,7 @@ static ppm_status build_tables(ppmi_lights *lights)
     if (!weights) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: lights");
     for (uint32_t i = 0; i < lights->count; i++) {
         weights[i] = emitter_power(lights, &lights->emitters[i]);
+        lights->power += weights[i];
     }
     ppm_status status = ppmi_alias_init(context, &lights->by_power, weights, lights->count);
     if (status == PPM_STATUS_OK && lights->near_count > 0) {

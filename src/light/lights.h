@@ -90,9 +90,16 @@ ppmi_vec3 ppmi_lights_backdrop(const ppmi_lights *lights, ppmi_vec3 direction);
 typedef struct ppmi_emission {
     ppmi_ray ray;
     ppmi_vec3 power;
+    float crowding; /* ppmi_lights_crowding of the light's radiance along the ray; infinite where no
+                       other ray meets the light: of delta lights */
     uint32_t emitter;
     bool is_far; /* from a directional light, a sun or the environment */
 } ppmi_emission;
+
+/* About how densely photons leave a light that has this radiance: for each one of a pass, per metre
+ * squared and steradian (of projected area, as radiance). Where none is aimed, it is that exactly.
+ */
+float ppmi_lights_crowding(const ppmi_lights *lights, ppmi_vec3 radiance);
 
 /* Which of at most groups groups of lights u_pick chooses: lights of one group take u alike. Lamps
  * and far lights come first, each by itself as far as the groups suffice, then ranges of triangles.

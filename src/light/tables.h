@@ -41,6 +41,7 @@ struct ppmi_lights {
     uint32_t count; /* emitters: near lights, directional lights, the environment */
     ppmi_emitter *emitters;
     ppmi_alias by_power;     /* all emitters, for photons */
+    float power;             /* of all that by_power holds */
     ppmi_alias near_lights;  /* the first near_count emitters, for light sampling: by power */
     ppmi_alias directionals; /* the next directional_count: by illuminance */
     ppmi_glow glow;          /* places on triangles whose emission varies */

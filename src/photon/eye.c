@@ -32,6 +32,7 @@ typedef struct eye_branch {
     float eta_scale;            /* of radiance by refraction, in both */
     float cone_width;
     uint32_t depth, splits, media_splits;
+    float merging; /* at the last vertex with narrow lobes, where only mirrors followed; else 0 */
     ppmi_interior interior; /* the walker's, while the branch waits */
     float wavelength_nm;
 } eye_branch;
@@ -168,6 +169,36 @@ static void record(eye_path *path, const eye_branch *branch, const eye_vertex *a
     }
 }
 
+/* Lobes that the path goes on by, and that gather what it may miss on the way: light that comes to
+ * them over mirrors or smooth glass. Where colours part by going through, the path has no
+ * wavelength yet to gather with. */
+static uint32_t narrow_lobes(const eye_path *path, const eye_vertex *at)
+{
+    if (!(path->settings->photons > 0.0f)) return 0;
+    const bool parts = at->vertex.drawn_wavelength > 0.0f;
+    return ppmi_narrow_lobes(&at->bsdf) & ~(uint32_t)(parts ? PPMI_LOBE_GLASS : 0);
+}
+
+/* Photons of a pass by the area of a disk, of a size as they are gathered in. It only decides who
+ * brings which share of the light. */
+static float merge_area(const eye_path *path, const eye_branch *branch, const ppmi_bsdf *bsdf)
+{
+    const float radius_m = 2.0f * footprint(branch, bsdf);
+    return path->settings->photons * PPMI_PI * radius_m * radius_m;
+}
+
+static void record_narrow(eye_path *path, const eye_branch *branch, const eye_vertex *at)
+{
+    const uint32_t narrow = narrow_lobes(path, at);
+    if (narrow == 0) return;
+    eye_vertex only = *at;
+    only.bsdf.gather_lobes = (uint8_t)narrow;
+    record(path, branch, &only, 1.0f);
+    if (path->is_out_of_memory) return;
+    path->points->points[path->points->count - 1].merge_area_m2 =
+        merge_area(path, branch, &at->bsdf);
+}
+
 /* The other half of MIS where the path gathers: a direction from the gathering lobes may meet a
  * light. A path that draws its group weighs with all lobes and their whole density, since the group
  * is part of the draw; one that splits with the group's own. */
@@ -247,6 +278,13 @@ static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const 
                                 .normal = ppmi_bsdf_normal(&at->bsdf),
                                 .is_delta = !is_weighed};
     if (is_weighed) next.origin.pdf = ppmi_bsdf_pdf(&at->bsdf, sample->wi, PPMI_LOBE_ALL);
+    if (!sample->is_delta) {
+        const uint32_t narrow = narrow_lobes(path, at);
+        next.merging =
+            ppmi_merging(&at->bsdf, narrow, merge_area(path, branch, &at->bsdf), sample->wi);
+    }
+    /* light that comes straight to a vertex is sampled there, unless photons bring it too */
+    if (sample->is_delta || !path->settings->samples_lights) next.origin.merging = next.merging;
     next.interior = walker->interior;
     next.wavelength_nm = walker->wavelength_nm;
     next.depth = branch->depth + 1;
@@ -426,6 +464,7 @@ static void follow(eye_path *path, eye_branch branch)
     eye_vertex at;
     while (branch.depth < path->settings->max_depth && arrive(path, &branch, &at)) {
         if (path->settings->samples_lights) sample_light(path, &at, branch.throughput);
+        record_narrow(path, &branch, &at);
         const uint32_t others = (uint32_t)(at.bsdf.lobes & ~at.bsdf.gather_lobes);
         const float gathering = ppmi_bsdf_probability(&at.bsdf, at.bsdf.gather_lobes);
         if (may_split(path, &branch)) {

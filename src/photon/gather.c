@@ -28,14 +28,32 @@ static bool is_on_surface(const ppmi_bsdf *bsdf, ppmi_vec3 ng)
 {
     const float cosine = vec3_dot(ng, bsdf->ng);
     return cosine >= PPMI_REGION_COSINE ||
-           (cosine <= -PPMI_REGION_COSINE && bsdf->gather_lobes & PPMI_LOBE_THROUGH);
+           (cosine <= -PPMI_REGION_COSINE &&
+            bsdf->gather_lobes & (PPMI_LOBE_THROUGH | PPMI_LOBE_GLASS));
+}
+
+/* The share of a photon that narrow lobes take (the balance heuristic): what paths that go on by
+ * them cannot find, all of it where they meet no such light. */
+static float merge_share(const ppmi_visible_point *point, const ppmi_photon_payload *photon)
+{
+    if (photon->crowding == INFINITY) return 1.0f;
+    const ppmi_bsdf *bsdf = &point->bsdf;
+    const float merging = ppmi_merging(bsdf, bsdf->gather_lobes, point->merge_area_m2, photon->wi);
+    return 1.0f - 1.0f / (1.0f + merging * photon->crowding);
 }
 
 /* Whether the photon counted. */
-static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
+static bool add_photon(const ppmi_photon_payload *photon, const ppmi_visible_point *point,
                        const ppmi_albedo_table *albedo, float kernel, ppmi_gathered *gathered,
                        ppmi_vec3 *out_contribution)
 {
+    const ppmi_bsdf *bsdf = &point->bsdf;
+    float share = 1.0f;
+    if (point->merge_area_m2 > 0.0f) {
+        if (!(photon->crowding > 0.0f)) return false;
+        share = merge_share(point, photon);
+        kernel *= share;
+    }
     ppmi_vec3 ng = photon->ng;
     if (!ppmi_bsdf_is_phase(bsdf)) {
         if (!is_on_surface(bsdf, ng)) return false;
@@ -48,7 +66,7 @@ static bool add_photon(const ppmi_photon_payload *photon, const ppmi_bsdf *bsdf,
     if (vec3_is_black(contribution)) return false;
     *out_contribution = contribution;
     gathered->flux = vec3_add(gathered->flux, contribution);
-    gathered->count += 1.0f;
+    gathered->count += share;
     return true;
 }
 
@@ -91,9 +109,12 @@ static void add_to_layers(const ppmi_gather_layers *layers, const ppmi_visible_p
                           const ppmi_albedo_table *albedo, uint32_t photon, ppmi_vec3 contribution)
 {
     const ppmi_photon_tag *tag = &layers->photons[photon].tag;
+    /* on lobes that the path goes on by, light is no caustic: it is seen mirrored */
+    const bool is_narrow = point->merge_area_m2 > 0.0f;
     const ppmi_photon_light light = {.radiance = vec3_mul(contribution, layers->factor),
                                      .wi = layers->photons[photon].wi,
-                                     .caustic = share_of_255(tag->caustic),
+                                     .caustic =
+                                         is_narrow ? vec3_splat(0.0f) : share_of_255(tag->caustic),
                                      .is_straight = tag->is_straight != 0,
                                      .group = tag->group};
     ppmi_light_sink_add_photon(layers->sink, point->eye_class, &point->bsdf, albedo, &light);
@@ -138,7 +159,7 @@ gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                 }
                 ppmi_vec3 contribution;
                 const bool counts =
-                    add_photon(&grid->payloads[indices[k]], bsdf, albedo,
+                    add_photon(&grid->payloads[indices[k]], point, albedo,
                                kernel * (1.0f - distances2[k] / radius2), &gathered, &contribution);
                 if (layers && counts) {
                     add_to_layers(layers, point, albedo, grid->order[indices[k]], contribution);

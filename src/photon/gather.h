@@ -11,7 +11,7 @@
 /* What photons bring to one visible point. */
 typedef struct ppmi_gathered {
     ppmi_vec3 flux;  /* sum of f * power * kernel, unnormalised; throughput is not in it */
-    float count;     /* photons that contributed */
+    float count;     /* photons that contributed, by the shares that narrow lobes take of them */
     float share;     /* of the disk or ball that was asked for: measure of what was searched */
     bool is_crowded; /* the disk had to be smaller than asked for */
 } ppmi_gathered;

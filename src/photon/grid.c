@@ -305,7 +305,8 @@ static void reorder(ppmi_photon_grid *grid, const ppmi_photon *photons, uint32_t
         grid->x[i] = photon->position.x;
         grid->y[i] = photon->position.y;
         grid->z[i] = photon->position.z;
-        grid->payloads[i] = (ppmi_photon_payload){photon->wi, photon->power, photon->ng};
+        grid->payloads[i] =
+            (ppmi_photon_payload){photon->wi, photon->power, photon->ng, photon->crowding};
     }
 }
 

@@ -20,6 +20,7 @@ enum { PPMI_GRID_BITS = 21, PPMI_GRID_MAX_RUNS = 27 };
 /* What the gathering loop reads of a photon after its position. */
 typedef struct ppmi_photon_payload {
     ppmi_vec3 wi, power, ng;
+    float crowding;
 } ppmi_photon_payload;
 
 typedef struct ppmi_grid_entry {

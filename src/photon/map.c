@@ -50,12 +50,22 @@ static int kind_of(const ppmi_visible_point *point)
     return ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
 }
 
+/* Narrow lobes mostly find nothing: no region is looked for then. */
+static bool is_vain(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
+                    const ppmi_visible_point *point, float radius)
+{
+    return point->merge_area_m2 > 0.0f &&
+           ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius, NULL).count == 0.0f;
+}
+
 /* NULL in a medium. */
 static const ppmi_gather_region *find_region(const ppmi_photon_map *map,
+                                             const ppmi_albedo_table *albedo,
                                              const ppmi_visible_point *point, float radius,
                                              ppmi_gather_region *region)
 {
     if (!map->accel || kind_of(point) == PPMI_PHOTONS_VOLUME) return NULL;
+    if (is_vain(map, albedo, point, radius)) return NULL;
     ppmi_region_find(map->accel, point, radius, map->time, region);
     return region;
 }
@@ -65,7 +75,7 @@ ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albe
 {
     ppmi_gather_region region;
     return ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius,
-                       find_region(map, point, radius, &region));
+                       find_region(map, albedo, point, radius, &region));
 }
 
 ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
@@ -78,7 +88,7 @@ ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
     ppmi_gather_layers of_kind = *layers;
     of_kind.photons = map->photons[kind].photons;
     return ppmi_gather_with_layers(&map->grids[kind], albedo, point, radius,
-                                   find_region(map, point, radius, &region), &of_kind);
+                                   find_region(map, albedo, point, radius, &region), &of_kind);
 }
 
 void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
@@ -87,7 +97,7 @@ void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *a
     const int kind = kind_of(point);
     ppmi_gather_region region;
     ppmi_gather_mark(&map->grids[kind], albedo, point, radius,
-                     find_region(map, point, radius, &region), map->marks[kind]);
+                     find_region(map, albedo, point, radius, &region), map->marks[kind]);
 }
 
 /* ---- the guide ------------------------------------------------------------------------------- */

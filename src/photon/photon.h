@@ -22,6 +22,8 @@ typedef struct ppmi_photon {
     ppmi_vec3 wi; /* where it came from, unit */
     ppmi_vec3 power;
     ppmi_vec3 ng;        /* geometric normal there, on wi's side; 0 in a medium */
+    float crowding;      /* of a photon that came over mirrors and smooth glass only, its light's
+                            (ppmi_lights_crowding); else 0 */
     uint32_t path;       /* of those of its walk */
     ppmi_photon_tag tag; /* where its walk tags them */
 } ppmi_photon;

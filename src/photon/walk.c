@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "photon/adjoint.h"
+#include "photon/point.h"
 
 #include "transport/roulette.h"
 #include "transport/solid.h"
@@ -30,6 +31,7 @@ typedef struct photon_state {
     ppmi_ray ray;
     ppmi_vec3 power;
     ppmi_photon_history history;
+    float crowding; /* of its light, as long as it met mirrors and smooth glass only; else 0 */
     uint32_t depth; /* number of its next vertex */
 } photon_state;
 
@@ -69,6 +71,7 @@ static bool bounce(const photon_path *path, const ppmi_vertex *vertex, const ppm
     photon->power = vec3_scale(next, 1.0f / survival);
     photon->ray = ppmi_walk_leave(walker, vertex, &sample, &photon->power);
     photon->depth++;
+    if (!sample.is_delta) photon->crowding = 0.0f;
     if (path->walk->tags_photons) {
         ppmi_photon_history_scatter(&photon->history, bsdf, walker->world->albedo, sample.wi,
                                     sample.is_delta);
@@ -106,6 +109,7 @@ static bool store(const photon_path *path, const ppmi_vertex *vertex, const ppmi
         .wi = vec3_neg(photon->ray.direction),
         .power = arriving_power(walk->world->scene, vertex, photon->power),
         .ng = bsdf->ng,
+        .crowding = photon->crowding,
         .path = path->path,
     };
     if (walk->tags_photons) {
@@ -113,6 +117,12 @@ static bool store(const photon_path *path, const ppmi_vertex *vertex, const ppmi
     }
     const int kind = vertex->medium ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
     return ppmi_photon_list_push(path->context, &path->lists[kind], &landed);
+}
+
+/* Narrow lobes want photons that came over mirrors and smooth glass only. */
+static bool counts_somewhere(const ppmi_bsdf *bsdf, const photon_state *photon)
+{
+    return bsdf->gather_lobes != 0 || (photon->crowding > 0.0f && ppmi_narrow_lobes(bsdf) != 0);
 }
 
 static bool follow(const photon_path *path, photon_state photon);
@@ -147,7 +157,7 @@ static bool follow(const photon_path *path, photon_state photon)
         if (vec3_is_black(photon.power)) return true;
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(path->walker, &vertex, photon.ray.direction, &bsdf);
-        if (photon.depth >= walk->first_depth && bsdf.gather_lobes != 0 &&
+        if (photon.depth >= walk->first_depth && counts_somewhere(&bsdf, &photon) &&
             !store(path, &vertex, &bsdf, &photon)) {
             return false;
         }
@@ -175,6 +185,7 @@ static bool walk_photon(ppm_context *context, const ppmi_photon_walk *walk, ppmi
         .group = walk->groups ? ppmi_light_groups_of(walk->groups, lights, emission.emitter) : 0};
     return follow(&path, (photon_state){.ray = emission.ray,
                                         .power = emission.power,
+                                        .crowding = emission.crowding,
                                         .history = ppmi_photon_history_start()});
 }
 

@@ -226,7 +226,7 @@ const ppmi_light_pass *ppmi_pixel_layers_finish(ppmi_pixel_layers *layers)
     return pass;
 }
 
-ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)
+ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job, const ppmi_photon_pass *photons)
 {
     const int32_t split_depth = job->options->split_depth;
     return (ppmi_eye_settings){
@@ -234,5 +234,6 @@ ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job)
         .split_depth = split_depth > 0 ? (uint32_t)split_depth : 0,
         .media_depth = 2,
         .samples_lights = job->options->direct != PPM_DIRECT_PHOTONS,
+        .photons = (float)photons->per_pass,
     };
 }

@@ -99,7 +99,7 @@ static inline ppmi_gathered ppmi_photon_pass_gather(const ppmi_job *job,
     return gathered;
 }
 
-/* What the eye paths of the job's options do. */
-ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job);
+/* What the eye paths of the job's options do; photons->per_pass is set. */
+ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job, const ppmi_photon_pass *photons);
 
 #endif

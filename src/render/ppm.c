@@ -120,7 +120,7 @@ static ppmi_light_sink sink_of(ppm_state *state, size_t pixel)
 /* The visible points of a tile, pixel by pixel. */
 static bool trace_tile(const ppmi_job *job, ppm_state *state, uint32_t index, uint64_t *rays)
 {
-    const ppmi_eye_settings settings = ppmi_eye_settings_of(job);
+    const ppmi_eye_settings settings = ppmi_eye_settings_of(job, &state->photons);
     const ppmi_tile tile = ppmi_tile_at(&job->film, index);
     ppmi_visible_points *points = &state->tiles[index];
     ppmi_walker walker = {.world = &job->world};

@@ -139,10 +139,11 @@ static ppmi_light_sink sink_of(tile_eye *eye, uint32_t slot)
 }
 
 /* One path a pixel. */
-static bool trace_tile(const ppmi_job *job, ppmi_visible_points *points, ppmi_tile tile,
-                       uint64_t pass, tile_eye *eye, uint64_t *rays)
+static bool trace_tile(const ppmi_job *job, sppm_state *state, ppmi_tile tile, uint64_t pass,
+                       tile_eye *eye, uint64_t *rays)
 {
-    const ppmi_eye_settings settings = ppmi_eye_settings_of(job);
+    const ppmi_eye_settings settings = ppmi_eye_settings_of(job, &state->photons);
+    ppmi_visible_points *points = &state->points[omp_get_thread_num()];
     ppmi_walker walker = {.world = &job->world};
     uint32_t slot = 0;
     points->count = 0;
@@ -181,6 +182,17 @@ static void mark_photons(const ppmi_job *job, sppm_state *state, size_t pixel, c
         ppmi_photon_pass_see(job, &state->photons, &eye->points[i]);
 }
 
+/* Narrow lobes want few photons: they say what radius is wanted only where nothing else does. */
+static bool has_better(const tile_eye *eye, uint32_t slot, uint32_t i)
+{
+    if (eye->points[i].merge_area_m2 == 0.0f) return false;
+    for (uint32_t k = i + 1; k < eye->first_point[slot + 1]; k++) {
+        const ppmi_visible_point *point = &eye->points[k];
+        if (ppmi_dimension_of(point) == PPMI_DISK && point->merge_area_m2 == 0.0f) return true;
+    }
+    return false;
+}
+
 /* By the first point of each kind. */
 static void grow_radii(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
                        uint32_t slot)
@@ -189,7 +201,7 @@ static void grow_radii(const ppmi_job *job, sppm_state *state, size_t pixel, con
     for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++) {
         const ppmi_visible_point *point = &eye->points[i];
         const bool is_volume = ppmi_dimension_of(point) == PPMI_BALL;
-        if (has_grown[is_volume]) continue;
+        if (has_grown[is_volume] || has_better(eye, slot, i)) continue;
         has_grown[is_volume] = true;
         ppmi_gather_statistics *statistics =
             is_volume ? &state->now.volumes[pixel] : &state->now.surfaces[pixel].surface;
@@ -203,8 +215,7 @@ static bool pilot_tile(const ppmi_job *job, sppm_state *state, uint32_t index, p
     tile_eye eye;
     eye.layers = NULL;
     uint64_t rays = 0;
-    if (!trace_tile(job, &state->points[omp_get_thread_num()], tile, PPMI_PILOT_PASS, &eye,
-                    &rays)) {
+    if (!trace_tile(job, state, tile, PPMI_PILOT_PASS, &eye, &rays)) {
         return false;
     }
     if (ppmi_job_is_cancelled(job)) return true;
@@ -334,7 +345,7 @@ static void render_tile(const ppmi_job *job, sppm_state *state, uint32_t index, 
     tile_eye eye;
     eye.layers = ppmi_light_film_is_kept(&state->layers) ? &state->layers : NULL;
     const double start = omp_get_wtime();
-    if (!trace_tile(job, &state->points[omp_get_thread_num()], tile, pass, &eye, &totals->rays)) {
+    if (!trace_tile(job, state, tile, pass, &eye, &totals->rays)) {
         totals->failed = true;
         return;
     }

@@ -121,13 +121,21 @@ static inline bool cross_medium(ppmi_walker *walker, const ppmi_ray *ray, float 
     return is_empty || cross_filled(walker, ray, t_max, vertex, choice);
 }
 
+/* What photons leave to a path of the light that it meets beyond mirrors (the balance heuristic).
+ */
+static float left_by_photons(const ppmi_world *world, const ppmi_origin *origin, ppmi_vec3 radiance)
+{
+    if (origin->merging == 0.0f) return 1.0f;
+    return 1.0f / (1.0f + origin->merging * ppmi_lights_crowding(world->lights, radiance));
+}
+
 /* Adds what a lamp sends along the ray that meets it, at distance from where the path comes from.
  */
 static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_lamp_hit *lamp,
                      ppmi_vertex *vertex)
 {
     const ppmi_origin *origin = walker->origin;
-    float weight = 1.0f;
+    float weight = left_by_photons(walker->world, origin, lamp->radiance);
     if (!origin->is_delta) {
         const float light_pdf = ppmi_lights_pdf_lamp(
             walker->world->lights, lamp->lamp, origin->position, ray->direction, vertex->distance);
@@ -383,7 +391,9 @@ ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *verte
     if (!vertex->surface.material->emits) return vec3_splat(0.0f);
     const ppmi_vec3 radiance =
         emission_seen(walker, &vertex->surface, vec3_neg(direction), origin->is_delta);
-    if (origin->is_delta || vec3_is_black(radiance)) return radiance;
+    if (origin->is_delta || vec3_is_black(radiance)) {
+        return vec3_scale(radiance, left_by_photons(world, origin, radiance));
+    }
     const float light_pdf = ppmi_lights_pdf_surface(world->lights, &vertex->hit, &vertex->surface,
                                                     direction, vertex->distance);
     return vec3_scale(radiance, ppmi_mis_weight(origin->pdf, light_pdf));
@@ -394,8 +404,8 @@ ppmi_vec3 ppmi_walk_environment_weighed(const ppmi_walker *walker, ppmi_vec3 dir
 {
     const ppmi_lights *lights = walker->world->lights;
     const ppmi_vec3 radiance = ppmi_lights_environment(lights, direction);
-    *out_weight = 1.0f;
-    if (origin->is_delta || vec3_is_black(radiance)) return radiance;
+    *out_weight = left_by_photons(walker->world, origin, radiance);
+    if (origin->is_delta || vec3_is_black(radiance)) return vec3_scale(radiance, *out_weight);
     const float light_pdf = ppmi_lights_pdf_environment(lights, origin->normal, direction);
     *out_weight = ppmi_mis_weight(origin->pdf, light_pdf);
     return vec3_scale(radiance, *out_weight);

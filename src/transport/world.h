@@ -191,6 +191,8 @@ typedef struct ppmi_origin {
     float pdf;        /* by solid angle of its direction; irrelevant if is_delta */
     ppmi_vec3 normal; /* shading normal there; 0 in a medium */
     bool is_delta;    /* camera, mirror or smooth glass: light sampling cannot do it */
+    float merging;    /* where photons bring the same light to an earlier vertex: how likely they
+                         are to, for a crowding of 1, by how likely this path is; else 0 */
 } ppmi_origin;
 
 /* Emission of a surface vertex towards where the ray (unit direction) came from, weighed by MIS. */
