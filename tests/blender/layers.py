@@ -1,11 +1,14 @@
 """What Blender's compositor makes of a file of layers: it lists them, the light layers add up to the
-picture, and its Cryptomatte node takes each object out cleanly.
+picture, its Cryptomatte node takes each object out cleanly, numbers are exact whatever the compression,
+and groups with long names are there.
 
 blender -b --factory-startup --python-exit-code 1 -P layers.py -- --program PPM_RENDER --out FOLDER
 """
 
 import argparse
+import json
 import os
+import struct
 import subprocess
 import sys
 
@@ -114,6 +117,56 @@ def check_mattes(compositor, image):
     check(abs(total - 1).max() < 1e-3, f"the mattes add up to {total.min()}..{total.max()}")
 
 
+DATA = ["normal", "position", "motion", "uv", "Depth", "object_index", "variance"]
+
+
+def read_data(compositor, image):
+    node = open_plain(compositor, image)
+    outputs = {output.name: output for output in node.outputs}
+    return {name: compositor.pixels(outputs[name]) for name in DATA if name in outputs}
+
+
+def check_data(plain, packed, name):
+    """Numbers that are no light are the same bits, whatever the compression."""
+    check(set(plain) == set(packed) and len(plain) >= 5, f"{name}: {set(plain)}, {set(packed)}")
+    for layer, values in plain.items():
+        check(numpy.array_equal(values, packed[layer]), f"{name}: {layer} is not what it was")
+    print(f"{name}: {', '.join(plain)} are exact")
+
+
+def rename_lights(path):
+    """The sample scene with lights whose names begin with the same 70 letters."""
+    with open(SCENE, "rb") as file:
+        data = file.read()
+    length = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20:20 + length])
+    for key in ("nodes", "materials", "meshes"):
+        for item in document.get(key, []):
+            if item.get("name") in ("Spot", "Panel"):
+                item["name"] = "a" * 70 + item["name"]
+    for light in document.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", []):
+        light["name"] = "a" * 70 + light.get("name", "")
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length:]
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, 20 + len(text) + len(rest)))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text + rest)
+
+
+def check_long_names(compositor, program, folder):
+    scene, path = os.path.join(folder, "long.glb"), os.path.join(folder, "long.exr")
+    rename_lights(scene)
+    subprocess.run([program, "-q", "-s", f"{WIDTH}x{HEIGHT}", "-n", "1", "-p", "1000", "--aov",
+                    "light,caustics", "--light-groups=named", "-o", path, scene], check=True)
+    node = open_plain(compositor, bpy.data.images.load(path))
+    for layer in ("light", "caustics"):
+        node.layer = layer
+        names = [output.name for output in node.outputs if output.name.startswith("aaaa")]
+        check(len(names) == 2 and all("~" in name for name in names), f"{layer} has {names}")
+        print(f"{layer}: {names}")
+
+
 def main():
     if bpy.app.version[:2] != (3, 4):  # whose nodes and scenes are these
         print("skipped: this is Blender", bpy.app.version_string, "and not 3.4")
@@ -124,15 +177,21 @@ def main():
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
     os.makedirs(arguments.out, exist_ok=True)
     for name, options in (("plain", []), ("parts", ["--exr-multipart"]),
-                          ("packed", ["--exr-compression", "dwaa", "--exr-tiles"])):
+                          ("packed", ["--exr-compression", "dwaa", "--exr-tiles"]),
+                          ("rounded", ["--exr-compression", "pxr24"])):
         path = os.path.join(arguments.out, f"{name}.exr")
         render(arguments.program, path, *options)
         compositor = Compositor(arguments.out)
         image = bpy.data.images.load(path)
         check_layers(compositor, image)
-        if name != "packed":  # which rounds colours
+        if name not in ("packed", "rounded"):  # which round colours
             check_sum(compositor, image)
+        data = read_data(compositor, image)
+        if name == "plain":
+            plain = data
+        check_data(plain, data, name)
         check_mattes(compositor, image)
+    check_long_names(compositor, arguments.program, arguments.out)
 
 
 main()
