@@ -340,6 +340,55 @@ static ppm_status walk_scene(ppmi_gltf_reader *reader, walk *w)
     return status;
 }
 
+/* Places a joint that is not in the scene, by the root above it. */
+static ppm_status walk_to_joint(ppmi_gltf_reader *reader, walk *w, const int32_t *above,
+                                int32_t joint, const char *place)
+{
+    int32_t root = joint;
+    if (w->parents[joint] != NOT_REACHED) return PPM_STATUS_OK;
+    for (size_t i = 0; above[root] >= 0; ++i) {
+        root = above[root];
+        if (i < reader->document->node_count) continue;
+        return ppmi_gltf_invalid(reader, place, "nodes[%d] is below itself", (int)joint);
+    }
+    ppmi_gltf_warn(reader, place, "nodes[%d] is not in the scene: it is placed by what is above it",
+                   (int)joint);
+    ppmi_gltf_note_feature(reader, "joints outside of the scene", PPM_FEATURE_IGNORED,
+                           "that they are: they move their skins");
+    return walk_from(reader, w, root, place);
+}
+
+/* The joints of the skins of the scene, as other viewers place them, wherever they are. */
+static ppm_status walk_joints(ppmi_gltf_reader *reader, walk *w)
+{
+    const ppmi_gltf_document *d = reader->document;
+    int32_t *above = ppmi_alloc(reader->context, d->node_count + 1, sizeof *above);
+    ppm_status status = above ? PPM_STATUS_OK : ppmi_gltf_out_of_memory(reader, "nodes");
+    char place[PPMI_GLTF_PLACE];
+    for (size_t i = 0; above && i < d->node_count; ++i) {
+        above[i] = -1;
+    }
+    for (size_t i = 0; above && i < d->node_count; ++i) {
+        for (uint32_t k = 0; k < d->nodes[i].child_count; ++k) {
+            const int32_t child = d->nodes[i].children[k];
+            if (child >= 0 && (size_t)child < d->node_count) above[child] = (int32_t)i;
+        }
+    }
+    for (size_t k = 0; k < reader->pose->shown_count && status == PPM_STATUS_OK; ++k) {
+        const int32_t index = d->nodes[reader->pose->order[k]].skin;
+        if (index < 0 || (size_t)index >= d->skin_count) continue;
+        const ppmi_gltf_skin *skin = &d->skins[index];
+        for (uint32_t i = 0; i < skin->joint_count && status == PPM_STATUS_OK; ++i) {
+            const int32_t joint = skin->joints[i];
+            if (joint < 0 || (size_t)joint >= d->node_count) continue;
+            ppmi_gltf_place(place, "skins[%d].joints[%u]", (int)index, (unsigned)i);
+            status = walk_to_joint(reader, w, above, joint, place);
+        }
+    }
+    ppmi_free(reader->context, above);
+    return status;
+}
+
 static ppm_status walk_nodes(ppmi_gltf_reader *reader)
 {
     const ppmi_gltf_document *document = reader->document;
@@ -349,7 +398,9 @@ static ppm_status walk_nodes(ppmi_gltf_reader *reader)
     walk w = {.stack = ppmi_alloc(reader->context, document->node_count + 1, sizeof *w.stack),
               .parents = reader->pose->parents};
     if (!w.stack) return ppmi_gltf_out_of_memory(reader, "nodes");
-    const ppm_status status = has_scene ? walk_scene(reader, &w) : walk_all(reader, &w);
+    ppm_status status = has_scene ? walk_scene(reader, &w) : walk_all(reader, &w);
+    reader->pose->shown_count = reader->pose->order_count;
+    if (status == PPM_STATUS_OK && document->skin_count > 0) status = walk_joints(reader, &w);
     ppmi_free(reader->context, w.stack);
     return status;
 }
@@ -357,7 +408,7 @@ static ppm_status walk_nodes(ppmi_gltf_reader *reader)
 static ppm_status emit_nodes(ppmi_gltf_reader *reader)
 {
     ppm_status status = PPM_STATUS_OK;
-    for (size_t i = 0; i < reader->pose->order_count && status == PPM_STATUS_OK; ++i) {
+    for (size_t i = 0; i < reader->pose->shown_count && status == PPM_STATUS_OK; ++i) {
         status = emit_node(reader, reader->pose->order[i]);
     }
     return status;

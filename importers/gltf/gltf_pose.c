@@ -160,7 +160,7 @@ static bool find_middle(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p,
                         double *out_size)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t k = 0; k < p->order_count; ++k) {
+    for (size_t k = 0; k < p->shown_count; ++k) {
         const double *at = place_of_mesh(reader, p, p->order[k]);
         for (int i = 0; at && i < 3; ++i) {
             low[i] = fmin(low[i], at[i]);

@@ -9,10 +9,12 @@
  * lines between these are as good. */
 typedef struct ppmi_gltf_pose {
     size_t node_count, order_count;
-    int32_t *order;   /* the nodes of the scene, parents before their children */
-    int32_t *parents; /* -1: a root; -2: not in the scene */
-    int32_t *assets;  /* the node whose name is the asset's; -1: none; see gltf_belong.h */
-    int32_t *groups;  /* the node that says the light group; -1: none */
+    size_t shown_count; /* of order: those of the scene; the rest are joints of its skins, and what
+                           is above and below them, which are placed but not shown */
+    int32_t *order;     /* the nodes of the scene, parents before their children */
+    int32_t *parents;   /* -1: a root; -2: not in the scene */
+    int32_t *assets;    /* the node whose name is the asset's; -1: none; see gltf_belong.h */
+    int32_t *groups;    /* the node that says the light group; -1: none */
 
     size_t *first_weight; /* node_count + 1: where a node's weights are among all of them */
     double *weights;      /* of morph targets, now */

@@ -189,8 +189,6 @@ static void broken_skins_are_refused(void **state)
         {INFLUENCES, "'skins':[{}],", "skins[0].joints: missing"},
         {INFLUENCES, "'skins':[{'joints':[]}],", "skins[0].joints: there are none"},
         {INFLUENCES, "'skins':[{'joints':[9]}],", "skins[0].joints[0]: nodes[9] does not exist"},
-        {INFLUENCES, "'skins':[{'joints':[1,3]}],",
-         "skins[0].joints[1]: nodes[3] is not in the scene"},
         {INFLUENCES, "'skins':[{'joints':[1,2],'inverseBindMatrices':15}],",
          "1 matrices for 2 joints"},
         {INFLUENCES, "'skins':[{'joints':[1],'inverseBindMatrices':5}],",
@@ -230,6 +228,28 @@ static void broken_targets_are_refused(void **state)
 }
 
 /* ---- skins ----------------------------------------------------------------------------------- */
+
+/* Joint 0 adds (0 0 4), joint 1 is at the point 0. */
+static void joints_outside_of_the_scene_move_their_skin(void **state)
+{
+    gltf_fixture *f = *state;
+    for (int i = 0; i < 2; ++i) {
+        ppmi_gltf_asset *asset;
+        gltf_reset(f);
+        f->options.strict = i == 1;
+        assert_gltf_status(
+            f, open_rig(f, ",'skin':0", INFLUENCES, "", "'skins':[{'joints':[1,3]}],", &asset),
+            i == 0 ? PPM_STATUS_OK : PPM_STATUS_INPUT_UNSUPPORTED);
+        assert_gltf_logged(f, 'W', "skins[0].joints[1]: nodes[3] is not in the scene");
+        if (i == 1) break;
+        const ppmi_primitive *p = only_primitive(f);
+        for (size_t k = 0; k < 4; ++k) {
+            const float z = (float)(4.0 * (1.0 - shares[k]));
+            assert_near(vec3_load(p->positions + 3 * k), vec3_add(rest_position(k), vec3(0, 0, z)));
+        }
+        ppmi_gltf_asset_close(asset);
+    }
+}
 
 static void vertices_follow_their_joints_and_not_the_node(void **state)
 {
@@ -571,6 +591,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(broken_skins_are_refused),
         TEST(broken_targets_are_refused),
+        TEST(joints_outside_of_the_scene_move_their_skin),
         TEST(vertices_follow_their_joints_and_not_the_node),
         TEST(normals_stay_perpendicular_to_the_surface),
         TEST(a_skin_without_matrices_has_identities),
