@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "imageio/dither.h"
+#include "imageio/exr_check.h"
 #include "imageio/file.h"
 #include "imageio/format.h"
 #include "imageio/heif_check.h"
@@ -290,6 +291,8 @@ ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, siz
         status = ppmi_imageio_png_check(context, bytes, byte_count, name);
     } else if (strcmp(format->oiio, "heif") == 0) {
         status = ppmi_imageio_heif_check(context, bytes, byte_count, name);
+    } else if (strcmp(format->oiio, "openexr") == 0) {
+        status = ppmi_imageio_exr_check(context, bytes, byte_count, name);
     }
     if (status != PPM_STATUS_OK) return status;
     ppmi_oiio_reader *reader = NULL;
