@@ -1,7 +1,7 @@
 /* Light sampling: what arrives at a point from one light that is drawn, and how likely it was to be
  * drawn. */
 #include "accel/round.h"
-#include "light/tables.h"
+#include "light/light_choice.h"
 #include "math/sampling.h"
 
 /* A point in a medium has no normal: light counts from every side. */
@@ -16,12 +16,6 @@ static bool sample_punctual(const ppm_scene *scene, const ppmi_punctual *light, 
                             ppmi_light_sample *sample)
 {
     sample->is_delta = true;
-    if (light->kind == PPM_LIGHT_DIRECTIONAL) {
-        sample->wi = vec3_neg(light->direction);
-        sample->is_far = true;
-        sample->radiance = light->intensity;
-        return true;
-    }
     const ppmi_vec3 to_light = vec3_sub(light->position, position);
     const float distance2 = vec3_length2(to_light);
     if (!(distance2 > 0.0f)) return false;
@@ -95,21 +89,34 @@ static float environment_pdf(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 w
     return ppmi_max(vec3_dot(n, wi), 0.0f) * PPMI_INV_PI;
 }
 
+/* Probabilities of the choices of far light, where a sample is drawn. */
+typedef struct far_shares {
+    float directional, environment;
+} far_shares;
+
+static far_shares far_shares_of(const ppmi_lights *lights, const float *shares)
+{
+    return (far_shares){
+        .directional = lights->directional_count > 0 ? shares[lights->directional_choice] : 0.0f,
+        .environment = lights->has_environment ? shares[lights->environment_choice] : 0.0f,
+    };
+}
+
 /* Far light has one radiance and one density a direction, whichever of it a sample was drawn for:
- * where disks and a bright sky overlap, each stands in for the others. pdf: of wi, class share not
- * included. */
-static bool finish_far(const ppmi_lights *lights, ppmi_vec3 wi, float pdf,
-                       ppmi_light_sample *sample)
+ * where disks and a bright sky overlap, each stands in for the others. environment: density of wi
+ * by the environment, given its choice. */
+static bool finish_far(const ppmi_lights *lights, const far_shares *shares, ppmi_vec3 wi,
+                       float environment, ppmi_light_sample *sample)
 {
     sample->wi = wi;
     sample->is_far = true;
-    sample->pdf = lights->class_share * pdf;
+    sample->pdf = shares->environment * environment + shares->directional * suns_pdf(lights, wi);
     sample->radiance = ppmi_lights_environment(lights, wi);
     return sample->pdf > 0.0f && !vec3_is_black(sample->radiance);
 }
 
-static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_cell, float u,
-                               float v, ppmi_light_sample *sample)
+static bool sample_environment(const ppmi_lights *lights, const far_shares *shares, ppmi_vec3 n,
+                               double u_cell, float u, float v, ppmi_light_sample *sample)
 {
     const ppmi_environment_map *map = &lights->environment;
     ppmi_vec3 wi;
@@ -122,28 +129,44 @@ static bool sample_environment(const ppmi_lights *lights, ppmi_vec3 n, double u_
     } else {
         pdf = ppmi_environment_map_sample(map, u_cell, u, v, &wi);
     }
-    return finish_far(lights, wi, pdf + suns_pdf(lights, wi), sample);
+    return finish_far(lights, shares, wi, pdf, sample);
 }
 
-static bool sample_sun(const ppmi_lights *lights, const ppmi_sun *sun, ppmi_vec3 n, float u,
-                       float v, ppmi_light_sample *sample)
+static bool sample_directional(const ppmi_lights *lights, const far_shares *shares, ppmi_vec3 n,
+                               double u_pick, float u, float v, ppmi_light_sample *sample)
 {
-    const ppmi_vec3 wi = ppmi_sun_sample(sun, u, v);
-    return finish_far(lights, wi, environment_pdf(lights, n, wi) + suns_pdf(lights, wi), sample);
+    const uint32_t i = ppmi_alias_sample(&lights->directionals, u_pick, NULL);
+    const ppmi_emitter *e = &lights->emitters[lights->near_count + i];
+    sample->emitter = lights->near_count + i;
+    if (e->kind == PPMI_EMITTER_SUN) {
+        const ppmi_vec3 wi = ppmi_sun_sample(&lights->suns[e->primitive], u, v);
+        return finish_far(lights, shares, wi, environment_pdf(lights, n, wi), sample);
+    }
+    const ppmi_punctual *light = &lights->scene->punctuals[e->triangle];
+    sample->pdf = shares->directional * ppmi_alias_probability(&lights->directionals, i);
+    sample->is_delta = true;
+    sample->is_far = true;
+    sample->wi = vec3_neg(light->direction);
+    sample->radiance = light->intensity;
+    return sample->pdf > 0.0f;
 }
 
-/* ---- all classes ----------------------------------------------------------------------------- */
+/* ---- all of it ------------------------------------------------------------------------------- */
 
-/* Draws from a class of finite choices; first is the class's first emitter. */
-static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table, uint32_t first,
-                             ppmi_vec3 position, ppmi_vec3 n, float time, double u_pick, float u,
-                             float v, ppmi_light_sample *sample)
+/* share: probability of the cluster. */
+static bool sample_cluster(const ppmi_lights *lights, uint32_t cluster, float share,
+                           const ppmi_receiver *receiver, float time, double u_pick, float u,
+                           float v, ppmi_light_sample *sample)
 {
-    const uint32_t i = ppmi_alias_sample(table, u_pick, NULL);
-    const ppmi_emitter *e = &lights->emitters[first + i];
-    sample->pdf *= ppmi_alias_probability(table, i);
-    sample->emitter = first + i;
+    float pdf;
+    if (!ppmi_light_tree_sample(&lights->near_lights, lights->clusters[cluster].node, receiver,
+                                u_pick, &sample->emitter, &pdf)) {
+        return false;
+    }
+    sample->pdf = share * pdf;
     if (!(sample->pdf > 0.0f)) return false;
+    const ppmi_emitter *e = &lights->emitters[sample->emitter];
+    const ppmi_vec3 position = receiver->position;
     if (e->kind == PPMI_EMITTER_PUNCTUAL) {
         return sample_punctual(lights->scene, &lights->scene->punctuals[e->triangle], position,
                                sample);
@@ -151,38 +174,73 @@ static bool sample_by_weight(const ppmi_lights *lights, const ppmi_alias *table,
     if (e->kind == PPMI_EMITTER_LAMP) {
         return sample_lamp(lights->scene, &lights->lamps[e->primitive], position, u, v, sample);
     }
-    if (e->kind == PPMI_EMITTER_SUN) {
-        return sample_sun(lights, &lights->suns[e->primitive], n, u, v, sample);
-    }
     return sample_triangle(lights, e, position, time, u, v, sample);
 }
 
-bool ppmi_lights_sample_at(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, float time,
-                           double u_pick, float u, float v, ppmi_light_sample *out_sample)
+/* shares: of all choices. */
+static bool sample_by(const ppmi_lights *lights, uint32_t choice, const float *shares,
+                      const ppmi_receiver *receiver, float time, double u_pick, float u, float v,
+                      ppmi_light_sample *sample)
 {
-    if (lights->count == 0) return false;
-    const double share = (double)lights->class_share;
-    *out_sample = (ppmi_light_sample){.pdf = lights->class_share};
-    if (lights->has_environment) {
-        if (u_pick < share) {
-            return sample_environment(lights, n, u_pick / share, u, v, out_sample);
-        }
-        u_pick -= share;
+    *sample = (ppmi_light_sample){0};
+    if (choice < lights->cluster_count) {
+        return sample_cluster(lights, choice, shares[choice], receiver, time, u_pick, u, v, sample);
     }
-    if (lights->directional_count > 0) {
-        if (u_pick < share || lights->near_count == 0) {
-            return sample_by_weight(lights, &lights->directionals, lights->near_count, position, n,
-                                    time, u_pick / share, u, v, out_sample);
-        }
-        u_pick -= share;
+    const far_shares far = far_shares_of(lights, shares);
+    if (choice == lights->directional_choice && lights->directional_count > 0) {
+        return sample_directional(lights, &far, receiver->normal, u_pick, u, v, sample);
     }
-    if (lights->near_count == 0) return false;
-    return sample_by_weight(lights, &lights->near_lights, 0, position, n, time, u_pick / share, u,
-                            v, out_sample);
+    return sample_environment(lights, &far, receiver->normal, u_pick, u, v, sample);
 }
 
-float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
-                              const ppmi_surface *surface, ppmi_vec3 wi, float distance)
+bool ppmi_lights_sample_at(const ppmi_lights *lights, const ppmi_receiver *receiver, float time,
+                           double u_pick, float u, float v, ppmi_light_sample *out_sample)
+{
+    *out_sample = (ppmi_light_sample){0};
+    if (lights->choice_count == 0) return false;
+    float shares[PPMI_LIGHT_CHOICES];
+    const float sum = ppmi_light_choice_shares(lights, receiver, shares);
+    const bool has_another = u_pick + 1.0 < (double)sum;
+    out_sample->has_another = has_another;
+    for (uint32_t c = 0; c < lights->choice_count; c++) {
+        const double share = (double)shares[c];
+        if (u_pick < share) {
+            const bool is_lit =
+                sample_by(lights, c, shares, receiver, time, u_pick / share, u, v, out_sample);
+            out_sample->has_another = has_another;
+            return is_lit;
+        }
+        u_pick -= share;
+    }
+    return false;
+}
+
+bool ppmi_lights_sample_choice(const ppmi_lights *lights, uint32_t choice,
+                               const ppmi_receiver *receiver, float time, double u_pick, float u,
+                               float v, ppmi_light_sample *out_sample, float *out_importance)
+{
+    float shares[PPMI_LIGHT_CHOICES] = {0};
+    shares[choice] = 1.0f;
+    *out_importance = ppmi_light_choice_importance(lights, choice, receiver);
+    return *out_importance > 0.0f &&
+           sample_by(lights, choice, shares, receiver, time, u_pick, u, v, out_sample);
+}
+
+/* Probability that a near light is drawn. */
+static float near_choice(const ppmi_lights *lights, const ppmi_receiver *receiver, uint32_t emitter)
+{
+    uint32_t depth;
+    const uint32_t choice = ppmi_light_choice_of(lights, emitter, &depth);
+    if (choice == lights->choice_count) return 0.0f;
+    float shares[PPMI_LIGHT_CHOICES];
+    ppmi_light_choice_shares(lights, receiver, shares);
+    return shares[choice] * ppmi_light_tree_pdf(&lights->near_lights, lights->clusters[choice].node,
+                                                depth, receiver, emitter);
+}
+
+float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_receiver *receiver,
+                              const ppmi_hit *hit, const ppmi_surface *surface, ppmi_vec3 wi,
+                              float distance)
 {
     const uint32_t slot = lights->first_slot[hit->instance] + hit->primitive;
     const uint32_t first = lights->first_emitter[slot];
@@ -191,8 +249,8 @@ float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
     const float cosine = fabsf(vec3_dot(wi, surface->ng));
     if (!(cosine > 1e-6f)) return 0.0f;
     const float pdf = ppmi_emitter_pdf(lights, &lights->emitters[i], surface);
-    return lights->class_share * ppmi_alias_probability(&lights->near_lights, i) * pdf * distance *
-           distance / cosine;
+    if (!(pdf > 0.0f)) return 0.0f;
+    return near_choice(lights, receiver, i) * pdf * distance * distance / cosine;
 }
 
 bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool is_camera,
@@ -218,12 +276,12 @@ bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool 
     return true;
 }
 
-float ppmi_lights_pdf_lamp(const ppmi_lights *lights, uint32_t lamp, ppmi_vec3 position,
+float ppmi_lights_pdf_lamp(const ppmi_lights *lights, const ppmi_receiver *receiver, uint32_t lamp,
                            ppmi_vec3 wi, float distance)
 {
     const ppmi_lamp *of = &lights->lamps[lamp];
-    return lights->class_share * ppmi_alias_probability(&lights->near_lights, of->emitter) *
-           ppmi_lamp_pdf(of, position, wi, distance);
+    return near_choice(lights, receiver, of->emitter) *
+           ppmi_lamp_pdf(of, receiver->position, wi, distance);
 }
 
 bool ppmi_lights_have_lamps(const ppmi_lights *lights)
@@ -231,9 +289,15 @@ bool ppmi_lights_have_lamps(const ppmi_lights *lights)
     return lights->lamp_count > 0;
 }
 
-float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi)
+float ppmi_lights_pdf_environment(const ppmi_lights *lights, const ppmi_receiver *receiver,
+                                  ppmi_vec3 wi)
 {
-    return lights->class_share * (environment_pdf(lights, n, wi) + suns_pdf(lights, wi));
+    if (lights->choice_count == lights->cluster_count) return 0.0f; /* no far light */
+    float shares[PPMI_LIGHT_CHOICES];
+    ppmi_light_choice_shares(lights, receiver, shares);
+    const far_shares far = far_shares_of(lights, shares);
+    return far.environment * environment_pdf(lights, receiver->normal, wi) +
+           far.directional * suns_pdf(lights, wi);
 }
 
 ppmi_vec3 ppmi_lights_environment(const ppmi_lights *lights, ppmi_vec3 wi)

@@ -1,10 +1,9 @@
 /* Light tables: every emitter with what it is chosen by.
  *
- * Photons choose lights by power. Light sampling first chooses a class, those that are there
- * evenly: near lights (triangles, points, spots), directional lights, the environment. The power of
- * the far ones grows with the size of the scene and says little about what arrives at a point.
- * Within the first class the choice is by power, within the second by illuminance. */
-#include "light/tables.h"
+ * Photons choose lights by power. Light sampling chooses by what arrives at a place: the power of
+ * far lights grows with the size of the scene and says little about that (light_choice.h). */
+#include "light/light_bounds.h"
+#include "light/light_choice.h"
 
 static const ppmi_primitive *emitter_primitive(const ppm_scene *scene, const ppmi_emitter *e)
 {
@@ -184,9 +183,6 @@ static void add_emitters(ppmi_lights *lights)
     if (lights->has_environment) {
         lights->emitters[lights->count++] = (ppmi_emitter){.kind = PPMI_EMITTER_ENVIRONMENT};
     }
-    const int classes = (lights->near_count > 0) + (lights->directional_count > 0) +
-                        (lights->has_environment ? 1 : 0);
-    lights->class_share = classes > 0 ? 1.0f / (float)classes : 0.0f;
 }
 
 /* By what arrives, not by power: that depends on how the scene lies to the light. */
@@ -195,6 +191,7 @@ static ppm_status build_directionals(ppmi_lights *lights, float *weights)
     const ppmi_emitter *first = lights->emitters + lights->near_count;
     for (uint32_t i = 0; i < lights->directional_count; i++) {
         weights[i] = vec3_mean(lights->scene->punctuals[first[i].triangle].intensity);
+        lights->directional_lux += weights[i];
     }
     const ppm_status status =
         ppmi_alias_init(lights->context, &lights->directionals, weights, lights->directional_count);
@@ -204,6 +201,20 @@ static ppm_status build_directionals(ppmi_lights *lights, float *weights)
         lights->suns[first[i].primitive].choice = ppmi_alias_probability(&lights->directionals, i);
     }
     return PPM_STATUS_OK;
+}
+
+static ppm_status build_tree(ppmi_lights *lights, const float *power)
+{
+    ppm_context *context = lights->context;
+    ppmi_light_bounds *bounds = ppmi_alloc(context, lights->near_count, sizeof *bounds);
+    if (!bounds) return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: lights");
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lights->near_count; i++)
+        count += ppmi_light_bounds_of(lights, i, power[i], &bounds[count]) ? 1u : 0u;
+    const ppm_status status =
+        ppmi_light_tree_init(context, &lights->near_lights, bounds, count, lights->near_count);
+    ppmi_free(context, bounds);
+    return status;
 }
 
 static ppm_status build_tables(ppmi_lights *lights)
@@ -218,7 +229,7 @@ static ppm_status build_tables(ppmi_lights *lights)
     }
     ppm_status status = ppmi_alias_init(context, &lights->by_power, weights, lights->count);
     if (status == PPM_STATUS_OK && lights->near_count > 0) {
-        status = ppmi_alias_init(context, &lights->near_lights, weights, lights->near_count);
+        status = build_tree(lights, weights);
     }
     if (status == PPM_STATUS_OK && lights->directional_count > 0) {
         status = build_directionals(lights, weights);
@@ -280,6 +291,7 @@ ppm_status ppmi_lights_create(ppm_context *context, const ppm_scene *scene,
     lights->has_environment = !vec3_is_black(lights->environment.integral);
     if (status == PPM_STATUS_OK) status = build_profiles(lights);
     if (status == PPM_STATUS_OK) status = build(lights);
+    if (status == PPM_STATUS_OK) ppmi_light_choices_init(lights);
     if (status != PPM_STATUS_OK) {
         ppmi_lights_destroy(lights);
         return status;
@@ -294,7 +306,8 @@ void ppmi_lights_destroy(ppmi_lights *lights)
     ppm_context *context = lights->context;
     ppmi_environment_map_deinit(context, &lights->environment);
     ppmi_alias_deinit(context, &lights->by_power);
-    ppmi_alias_deinit(context, &lights->near_lights);
+    ppmi_light_tree_deinit(context, &lights->near_lights);
+    ppmi_light_cells_deinit(context, &lights->cells);
     ppmi_alias_deinit(context, &lights->directionals);
     ppmi_free(context, lights->emitters);
     ppmi_glow_deinit(context, &lights->glow);
@@ -307,6 +320,18 @@ void ppmi_lights_destroy(ppmi_lights *lights)
     ppmi_free(context, lights->first_slot);
     ppmi_free(context, lights->first_emitter);
     ppmi_free(context, lights);
+}
+
+uint32_t ppmi_lights_choice_count(const ppmi_lights *lights)
+{
+    return lights->choice_count;
+}
+
+ppm_status ppmi_lights_learn(ppmi_lights *lights, const ppmi_light_probe *probes, uint32_t count)
+{
+    ppmi_light_cells_deinit(lights->context, &lights->cells);
+    return ppmi_light_cells_init(lights->context, &lights->cells, probes, count,
+                                 lights->choice_count);
 }
 
 uint64_t ppmi_lights_count(const ppmi_lights *lights)

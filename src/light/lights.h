@@ -16,6 +16,19 @@ void ppmi_lights_destroy(ppmi_lights *lights);
 /* Number of emitters: punctual lights, emissive triangles, 1 for an environment. */
 uint64_t ppmi_lights_count(const ppmi_lights *lights);
 
+/* Who asks for light: what lights are chosen by. */
+typedef struct ppmi_receiver {
+    ppmi_vec3 position;
+    ppmi_vec3 normal; /* shading normal on the side that receives; 0 in a medium, where light counts
+                         from every side */
+    bool is_open;     /* a surface that light gets through: it counts from behind too */
+} ppmi_receiver;
+
+static inline bool ppmi_receiver_is_surface(const ppmi_receiver *receiver)
+{
+    return vec3_length2(receiver->normal) > 0.0f;
+}
+
 /* Light that arrives at a point from one sampled emitter, before visibility. */
 typedef struct ppmi_light_sample {
     ppmi_vec3 wi;       /* towards the light, unit */
@@ -24,31 +37,64 @@ typedef struct ppmi_light_sample {
     bool is_far;        /* directional light, sun or environment */
     ppmi_vec3 radiance; /* for delta lights: irradiance on a plane that faces them */
     float pdf;          /* by solid angle, choice included; of the choice alone for delta lights */
+    bool has_another;   /* set in all cases: u_pick + 1 gives another one */
     bool is_delta;
     uint32_t emitter; /* that it comes from; not of far light that is not delta: see
                          ppmi_lights_far_part */
 } ppmi_light_sample;
 
-/* Samples one light for a surface at position with shading normal n (on the side that receives), or
- * for a point in a medium: n is then 0, and light from every side counts. time is within the
- * shutter. False when nothing arrives. */
-bool ppmi_lights_sample_at(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n, float time,
+/* Samples one light for a receiver. time is within the shutter. False when nothing arrives.
+ *
+ * A place has one light sample, with u_pick in [0, 1), and now and then a second one, with
+ * u_pick + 1: samples add up, and densities are those of their expected number. */
+bool ppmi_lights_sample_at(const ppmi_lights *lights, const ppmi_receiver *receiver, float time,
                            double u_pick, float u, float v, ppmi_light_sample *out_sample);
 
-/* The same as the shutter opens. */
+/* The same for an opaque surface, as the shutter opens. */
 static inline bool ppmi_lights_sample(const ppmi_lights *lights, ppmi_vec3 position, ppmi_vec3 n,
                                       double u_pick, float u, float v,
                                       ppmi_light_sample *out_sample)
 {
-    return ppmi_lights_sample_at(lights, position, n, 0.0f, u_pick, u, v, out_sample);
+    const ppmi_receiver receiver = {.position = position, .normal = n};
+    return ppmi_lights_sample_at(lights, &receiver, 0.0f, u_pick, u, v, out_sample);
 }
 
-/* Density with which ppmi_lights_sample, at a point from, draws the emissive surface (on it, at
+/* ---- learning ---------------------------------------------------------------------------------
+ *
+ * A light sample first makes one of few choices: a cluster of near lights, directional lights, the
+ * environment. How they are shared out at a place may be learned before the picture is begun. */
+
+enum { PPMI_LIGHT_CLUSTERS = 16, PPMI_LIGHT_CHOICES = PPMI_LIGHT_CLUSTERS + 2 };
+
+/* A place where choices were tried: what arrived by each, over what its importance promises; below
+ * 0: not tried. */
+typedef struct ppmi_light_probe {
+    ppmi_receiver receiver;
+    float shares[PPMI_LIGHT_CHOICES];
+} ppmi_light_probe;
+
+uint32_t ppmi_lights_choice_count(const ppmi_lights *lights);
+
+/* Samples light by one choice, as ppmi_lights_sample_at does once it is made; the density is
+ * without the choice's probability. *out_importance: what it promises, in lux; 0: nothing at all.
+ */
+bool ppmi_lights_sample_choice(const ppmi_lights *lights, uint32_t choice,
+                               const ppmi_receiver *receiver, float time, double u_pick, float u,
+                               float v, ppmi_light_sample *out_sample, float *out_importance);
+
+/* From now on light is sampled by what the probes have found. Returns OK, OUT_OF_MEMORY. */
+ppm_status ppmi_lights_learn(ppmi_lights *lights, const ppmi_light_probe *probes, uint32_t count);
+
+/* ---- densities ------------------------------------------------------------------------------- */
+
+/* Density with which ppmi_lights_sample_at draws for a receiver the emissive surface (on it, at
  * distance along wi) or far light in direction wi: the environment or any directional light that
- * has a size. n as in ppmi_lights_sample. */
-float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_hit *hit,
-                              const ppmi_surface *surface, ppmi_vec3 wi, float distance);
-float ppmi_lights_pdf_environment(const ppmi_lights *lights, ppmi_vec3 n, ppmi_vec3 wi);
+ * has a size. */
+float ppmi_lights_pdf_surface(const ppmi_lights *lights, const ppmi_receiver *receiver,
+                              const ppmi_hit *hit, const ppmi_surface *surface, ppmi_vec3 wi,
+                              float distance);
+float ppmi_lights_pdf_environment(const ppmi_lights *lights, const ppmi_receiver *receiver,
+                                  ppmi_vec3 wi);
 
 /* A light with an extent that a ray meets: they stop no ray, so that one may meet several. */
 typedef struct ppmi_lamp_hit {
@@ -66,9 +112,9 @@ bool ppmi_lights_have_lamps(const ppmi_lights *lights);
 bool ppmi_lights_next_lamp(const ppmi_lights *lights, const ppmi_ray *ray, bool is_camera,
                            ppmi_lamp_hit *hit);
 
-/* Density with which ppmi_lights_sample, at position, draws that lamp in direction wi, which it is
- * met in at distance. */
-float ppmi_lights_pdf_lamp(const ppmi_lights *lights, uint32_t lamp, ppmi_vec3 position,
+/* Density with which ppmi_lights_sample_at draws for a receiver that lamp in direction wi, which it
+ * is met in at distance. */
+float ppmi_lights_pdf_lamp(const ppmi_lights *lights, const ppmi_receiver *receiver, uint32_t lamp,
                            ppmi_vec3 wi, float distance);
 
 /* Radiance from infinitely far in direction wi: the environment's and that of all directional

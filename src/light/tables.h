@@ -5,6 +5,8 @@
 #include "light/extent.h"
 #include "light/glow.h"
 #include "light/lamp.h"
+#include "light/light_cells.h"
+#include "light/light_tree.h"
 #include "light/lights.h"
 #include "light/sun.h"
 
@@ -31,6 +33,11 @@ typedef struct ppmi_emitter {
     uint32_t glow;     /* root of the tree by which places are drawn; PPMI_GLOW_EVEN */
 } ppmi_emitter;
 
+/* A node of the light tree that is chosen as one. */
+typedef struct ppmi_light_cluster {
+    uint32_t node, depth;
+} ppmi_light_cluster;
+
 struct ppmi_lights {
     ppm_context *context;
     const ppm_scene *scene;
@@ -40,18 +47,24 @@ struct ppmi_lights {
 
     uint32_t count; /* emitters: near lights, directional lights, the environment */
     ppmi_emitter *emitters;
-    ppmi_alias by_power;     /* all emitters, for photons */
-    float power;             /* of all that by_power holds */
-    ppmi_alias near_lights;  /* the first near_count emitters, for light sampling: by power */
-    ppmi_alias directionals; /* the next directional_count: by illuminance */
-    ppmi_glow glow;          /* places on triangles whose emission varies */
+    ppmi_alias by_power;         /* all emitters, for photons */
+    float power;                 /* of all that by_power holds */
+    ppmi_light_tree near_lights; /* the first near_count emitters, for light sampling */
+    ppmi_alias directionals;     /* the next directional_count: by illuminance */
+    ppmi_glow glow;              /* places on triangles whose emission varies */
+    float directional_lux;       /* of all of them, on planes that face them */
+
+    /* choices: the clusters, and behind them far light where there is any */
+    uint32_t choice_count, cluster_count, directional_choice, environment_choice;
+    ppmi_light_cluster clusters[PPMI_LIGHT_CLUSTERS];
+    ppmi_light_cells cells; /* what is known of them by place */
+
     uint32_t triangle_count, near_count, directional_count;
     ppmi_sun *suns; /* the directional lights that have a size */
     uint32_t sun_count;
     ppmi_lamp *lamps; /* point, spot and area lights that have an extent */
     uint32_t lamp_count;
     ppmi_profile_table *profiles; /* as in the scene */
-    float class_share;            /* of light samples, for each class that is there */
     uint32_t *first_slot;         /* per instance: where its primitives start in first_emitter */
     uint32_t *first_emitter;      /* per instance and primitive: emitter of triangle 0, or
                                      PPMI_NO_EMITTER */

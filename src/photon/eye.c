@@ -108,14 +108,17 @@ static void add_backdrop(eye_path *path, ppmi_vec3 direction, ppmi_vec3 throughp
 
 static void sample_light(eye_path *path, const eye_vertex *at, ppmi_vec3 throughput)
 {
-    ppmi_lit lit;
-    const ppmi_vec3 radiance =
-        ppmi_walk_light_sample_of(path->walker, &at->vertex, &at->bsdf, &lit);
-    ppmi_vec3 added;
-    if (add(path, throughput, radiance, &added) && path->sink && !vec3_is_black(added)) {
-        ppmi_light_sink_add_sample(path->sink, &path->history, &at->bsdf,
-                                   path->walker->world->albedo, &lit, throughput, added);
-    }
+    ppmi_light_turn turn = {0};
+    do {
+        ppmi_lit lit;
+        const ppmi_vec3 radiance =
+            ppmi_walk_light_sample_of(path->walker, &at->vertex, &at->bsdf, &turn, &lit);
+        ppmi_vec3 added;
+        if (add(path, throughput, radiance, &added) && path->sink && !vec3_is_black(added)) {
+            ppmi_light_sink_add_sample(path->sink, &path->history, &at->bsdf,
+                                       path->walker->world->albedo, &lit, throughput, added);
+        }
+    } while (turn.has_another);
 }
 
 /* Around a walk that meets lamps: what it meets goes into lamplight, and one by one to groups. */
@@ -226,8 +229,7 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
     ppmi_eye_history history;
     if (path->sink) history = path->history;
     scatter(path, at, &sample, is_split ? bsdf->gather_lobes : PPMI_LOBE_ALL, &history);
-    const ppmi_origin origin = {
-        .position = at->vertex.surface.position, .pdf = pdf, .normal = ppmi_bsdf_normal(bsdf)};
+    const ppmi_origin origin = {.receiver = ppmi_walk_receiver(&at->vertex, bsdf), .pdf = pdf};
     const ppmi_interior interior = walker->interior;
     const float wavelength = walker->wavelength_nm;
     ppmi_differential differential;
@@ -274,8 +276,7 @@ static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const 
     next.throughput = vec3_mul(vec3_mul(branch->throughput, weight), cost);
     next.light_throughput = vec3_mul(vec3_mul(branch->throughput, light_weight), cost);
     next.eta_scale *= sample->eta_scale;
-    next.origin = (ppmi_origin){.position = at->vertex.surface.position,
-                                .normal = ppmi_bsdf_normal(&at->bsdf),
+    next.origin = (ppmi_origin){.receiver = ppmi_walk_receiver(&at->vertex, &at->bsdf),
                                 .is_delta = !is_weighed};
     if (is_weighed) next.origin.pdf = ppmi_bsdf_pdf(&at->bsdf, sample->wi, PPMI_LOBE_ALL);
     if (!sample->is_delta) {

@@ -130,14 +130,17 @@ static void add_emission(path_trace *path, const ppmi_vertex *vertex, ppmi_vec3 
 static void sample_light(path_trace *path, const ppmi_vertex *vertex, const ppmi_bsdf *bsdf,
                          ppmi_vec3 throughput)
 {
-    ppmi_lit lit;
-    const ppmi_vec3 light =
-        vec3_mul(throughput, ppmi_walk_light_sample_of(path->walker, vertex, bsdf, &lit));
-    path->radiance = vec3_add(path->radiance, light);
-    if (path->sink && !vec3_is_black(light)) {
-        ppmi_light_sink_add_sample(path->sink, &path->history, bsdf, path->walker->world->albedo,
-                                   &lit, throughput, light);
-    }
+    ppmi_light_turn turn = {0};
+    do {
+        ppmi_lit lit;
+        const ppmi_vec3 light = vec3_mul(
+            throughput, ppmi_walk_light_sample_of(path->walker, vertex, bsdf, &turn, &lit));
+        path->radiance = vec3_add(path->radiance, light);
+        if (path->sink && !vec3_is_black(light)) {
+            ppmi_light_sink_add_sample(path->sink, &path->history, bsdf,
+                                       path->walker->world->albedo, &lit, throughput, light);
+        }
+    } while (turn.has_another);
 }
 
 static void trace_path(path_trace *path, ppmi_ray ray, uint32_t max_depth)
@@ -172,9 +175,8 @@ static void trace_path(path_trace *path, ppmi_ray ray, uint32_t max_depth)
         }
         throughput = vec3_mul(throughput, sample.weight);
         eta_scale *= sample.eta_scale;
-        origin = (ppmi_origin){.position = vertex.surface.position,
+        origin = (ppmi_origin){.receiver = ppmi_walk_receiver(&vertex, &bsdf),
                                .pdf = sample.pdf,
-                               .normal = ppmi_bsdf_normal(&bsdf),
                                .is_delta = sample.is_delta};
         ray = ppmi_walk_leave(walker, &vertex, &sample, &throughput);
         if (path->sink) {

@@ -10,6 +10,7 @@
 #include "render/features.h"
 #include "render/integrator.h"
 #include "render/layer_list.h"
+#include "render/light_pilot.h"
 #include "scene/mipmap.h"
 #include "scene/orient.h"
 #include "transport/solid.h"
@@ -31,6 +32,7 @@ struct ppm_render {
     ppmi_contacts *contacts;
     const ppmi_integrator *integrator;
     void *state;
+    bool has_light_pilot;
     ppmi_job job;
     ppmi_light_groups *groups;
     ppmi_layer_list layers;
@@ -523,7 +525,15 @@ ppm_status ppm_render_advance(ppm_render *render)
     if (!render) return PPM_STATUS_INVALID_ARGUMENT;
     if (atomic_load(&render->cancel)) return PPM_STATUS_CANCELLED;
     const double begin = omp_get_wtime();
-    const ppm_status status =
+    ppm_status status = PPM_STATUS_OK;
+    if (!render->has_light_pilot) {
+        ppm_render_stats added = render->stats;
+        status = ppmi_light_pilot(&render->job, render->lights, &added);
+        if (status != PPM_STATUS_OK) return status;
+        render->stats = added;
+        render->has_light_pilot = true;
+    }
+    status =
         render->integrator->pass(&render->job, render->state, render->stats.passes, &render->stats);
     if (status != PPM_STATUS_OK) return status;
     if (render->features) {

@@ -137,8 +137,8 @@ static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_
     const ppmi_origin *origin = walker->origin;
     float weight = left_by_photons(walker->world, origin, lamp->radiance);
     if (!origin->is_delta) {
-        const float light_pdf = ppmi_lights_pdf_lamp(
-            walker->world->lights, lamp->lamp, origin->position, ray->direction, vertex->distance);
+        const float light_pdf = ppmi_lights_pdf_lamp(walker->world->lights, &origin->receiver,
+                                                     lamp->lamp, ray->direction, vertex->distance);
         weight = ppmi_mis_weight(origin->pdf, light_pdf);
     }
     const ppmi_vec3 light = vec3_scale(vec3_mul(vertex->transmittance, lamp->radiance), weight);
@@ -282,19 +282,48 @@ static const ppmi_interior *interior_towards(const ppmi_walker *walker, const pp
     return is_transmission ? &vertex->behind : &walker->interior;
 }
 
+ppmi_vec3 ppmi_walk_light_visibility(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                     const ppmi_bsdf *bsdf, const ppmi_light_sample *light)
+{
+    ppmi_vec3 weight;
+    const ppmi_interior *interior = interior_towards(walker, vertex, bsdf, light->wi, &weight);
+    return ppmi_walk_visibility(walker, shadow_ray(&vertex->surface, light), interior);
+}
+
+typedef struct light_numbers {
+    double u_pick;
+    float u, v;
+} light_numbers;
+
+/* The second turn takes the first one's choice further, and what is rare is not stratified. */
+static light_numbers draw_numbers(ppmi_walker *walker, ppmi_light_turn *turn)
+{
+    light_numbers numbers;
+    if (turn->has_another) {
+        numbers.u_pick = turn->u_pick + 1.0;
+        numbers.u = ppmi_rng_float(&walker->rng);
+        numbers.v = ppmi_rng_float(&walker->rng);
+    } else {
+        numbers.u_pick = turn->u_pick = ppmi_walker_double(walker);
+        numbers.u = ppmi_walker_float(walker);
+        numbers.v = ppmi_walker_float(walker);
+    }
+    return numbers;
+}
+
 ppmi_vec3 ppmi_walk_light_sample_of(ppmi_walker *walker, const ppmi_vertex *vertex,
-                                    const ppmi_bsdf *bsdf, ppmi_lit *out_lit)
+                                    const ppmi_bsdf *bsdf, ppmi_light_turn *turn, ppmi_lit *out_lit)
 {
     const ppmi_vec3 black = vec3_splat(0.0f);
     if ((bsdf->lobes & ~bsdf->delta_lobes) == 0) return black;
     const ppmi_world *world = walker->world;
-    const double u_pick = ppmi_walker_double(walker);
-    const float u = ppmi_walker_float(walker), v = ppmi_walker_float(walker);
+    const light_numbers numbers = draw_numbers(walker, turn);
+    const ppmi_receiver receiver = ppmi_walk_receiver(vertex, bsdf);
     ppmi_light_sample light;
-    if (!ppmi_lights_sample_at(world->lights, vertex->surface.position, ppmi_bsdf_normal(bsdf),
-                               walker->time, u_pick, u, v, &light)) {
-        return black;
-    }
+    const bool is_lit = ppmi_lights_sample_at(world->lights, &receiver, walker->time,
+                                              numbers.u_pick, numbers.u, numbers.v, &light);
+    turn->has_another = light.has_another;
+    if (!is_lit) return black;
     const ppmi_vec3 f =
         ppmi_bsdf_eval(bsdf, world->albedo, light.wi, PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE);
     if (vec3_is_black(f)) return black;
@@ -394,8 +423,8 @@ ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *verte
     if (origin->is_delta || vec3_is_black(radiance)) {
         return vec3_scale(radiance, left_by_photons(world, origin, radiance));
     }
-    const float light_pdf = ppmi_lights_pdf_surface(world->lights, &vertex->hit, &vertex->surface,
-                                                    direction, vertex->distance);
+    const float light_pdf = ppmi_lights_pdf_surface(world->lights, &origin->receiver, &vertex->hit,
+                                                    &vertex->surface, direction, vertex->distance);
     return vec3_scale(radiance, ppmi_mis_weight(origin->pdf, light_pdf));
 }
 
@@ -406,7 +435,7 @@ ppmi_vec3 ppmi_walk_environment_weighed(const ppmi_walker *walker, ppmi_vec3 dir
     const ppmi_vec3 radiance = ppmi_lights_environment(lights, direction);
     *out_weight = left_by_photons(walker->world, origin, radiance);
     if (origin->is_delta || vec3_is_black(radiance)) return vec3_scale(radiance, *out_weight);
-    const float light_pdf = ppmi_lights_pdf_environment(lights, origin->normal, direction);
+    const float light_pdf = ppmi_lights_pdf_environment(lights, &origin->receiver, direction);
     *out_weight = ppmi_mis_weight(origin->pdf, light_pdf);
     return vec3_scale(radiance, *out_weight);
 }

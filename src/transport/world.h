@@ -153,22 +153,47 @@ ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kin
  */
 ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior);
 
+/* A vertex as light sampling knows it. */
+static inline ppmi_receiver ppmi_walk_receiver(const ppmi_vertex *vertex, const ppmi_bsdf *bsdf)
+{
+    return (ppmi_receiver){.position = vertex->surface.position,
+                           .normal = ppmi_bsdf_normal(bsdf),
+                           .is_open = (bsdf->lobes & (PPMI_LOBE_GLASS | PPMI_LOBE_THROUGH)) != 0};
+}
+
 /* Where the light of a light sample came from: radiance towards wo is light.radiance * weight. */
 typedef struct ppmi_lit {
     ppmi_light_sample light;
     ppmi_vec3 weight;
 } ppmi_lit;
 
+/* The light samples of a vertex, one by one: begin with zeros and go on while has_another. */
+typedef struct ppmi_light_turn {
+    bool has_another;
+    double u_pick; /* of the first */
+} ppmi_light_turn;
+
 /* Radiance towards wo from one light sample at a vertex, all lobes that are not delta, weighed by
  * MIS against sampling the BSDF. out_lit is set where it is not black; it may be NULL. */
 ppmi_vec3 ppmi_walk_light_sample_of(ppmi_walker *walker, const ppmi_vertex *vertex,
-                                    const ppmi_bsdf *bsdf, ppmi_lit *out_lit);
+                                    const ppmi_bsdf *bsdf, ppmi_light_turn *turn,
+                                    ppmi_lit *out_lit);
 
+/* Of all of them. */
 static inline ppmi_vec3 ppmi_walk_light_sample(ppmi_walker *walker, const ppmi_vertex *vertex,
                                                const ppmi_bsdf *bsdf)
 {
-    return ppmi_walk_light_sample_of(walker, vertex, bsdf, NULL);
+    ppmi_light_turn turn = {0};
+    ppmi_vec3 sum = {0.0f, 0.0f, 0.0f};
+    do {
+        sum = vec3_add(sum, ppmi_walk_light_sample_of(walker, vertex, bsdf, &turn, NULL));
+    } while (turn.has_another);
+    return sum;
 }
+
+/* Share of a light sample's light that arrives at a vertex. */
+ppmi_vec3 ppmi_walk_light_visibility(ppmi_walker *walker, const ppmi_vertex *vertex,
+                                     const ppmi_bsdf *bsdf, const ppmi_light_sample *light);
 
 /* Makes the BSDF of a vertex for a ray that came along direction; in a medium its phase function.
  */
@@ -187,12 +212,11 @@ ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
 
 /* Where a path comes from, for the MIS weight of emission that it meets. */
 typedef struct ppmi_origin {
-    ppmi_vec3 position;
-    float pdf;        /* by solid angle of its direction; irrelevant if is_delta */
-    ppmi_vec3 normal; /* shading normal there; 0 in a medium */
-    bool is_delta;    /* camera, mirror or smooth glass: light sampling cannot do it */
-    float merging;    /* where photons bring the same light to an earlier vertex: how likely they
-                         are to, for a crowding of 1, by how likely this path is; else 0 */
+    ppmi_receiver receiver; /* what light sampling there chooses by; irrelevant if is_delta */
+    float pdf;              /* by solid angle of its direction; irrelevant if is_delta */
+    bool is_delta;          /* camera, mirror or smooth glass: light sampling cannot do it */
+    float merging;          /* where photons bring the same light to an earlier vertex: how likely
+                               they are to, for a crowding of 1, by how likely this path is; else 0 */
 } ppmi_origin;
 
 /* Emission of a surface vertex towards where the ray (unit direction) came from, weighed by MIS. */

@@ -215,6 +215,7 @@ static void check_samples(double irradiance, const char *name)
     uint32_t met = 0, lit = 0;
     ppmi_rng rng = ppmi_rng_start(9, PPMI_STREAM_EYE, family.count);
     const ppmi_vec3 origin = vec3_splat(0.0f), up = vec3(0, 1, 0);
+    const ppmi_receiver at = {.position = origin, .normal = up};
     for (uint32_t i = 0; i < TEST_EFFORT(40000); i++) {
         const double pick = ppmi_rng_double(&rng);
         const float u = ppmi_rng_float(&rng), v = ppmi_rng_float(&rng);
@@ -229,7 +230,7 @@ static void check_samples(double irradiance, const char *name)
             if (ppmi_accel_intersect(world.accel, &ray, &hit)) {
                 ppmi_surface_from_hit(test.scene, &hit, &surface);
                 const float pdf =
-                    ppmi_lights_pdf_surface(world.lights, &hit, &surface, s.wi, hit.t);
+                    ppmi_lights_pdf_surface(world.lights, &at, &hit, &surface, s.wi, hit.t);
                 met += fabs((double)(pdf / s.pdf) - 1.0) < 1e-3;
             }
         }

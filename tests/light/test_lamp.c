@@ -222,8 +222,9 @@ static void densities_agree_with_the_draw(void **state)
             const ppmi_ray ray = {.origin = position, .t_max = INFINITY, .direction = sample.wi};
             ppmi_lamp_hit hit = {0};
             if (!ppmi_lights_next_lamp(world.lights, &ray, false, &hit)) continue; /* the rim */
+            const ppmi_receiver receiver = {.position = position, .normal = vec3(0, 1, 0)};
             const float pdf =
-                ppmi_lights_pdf_lamp(world.lights, hit.lamp, position, sample.wi, hit.t);
+                ppmi_lights_pdf_lamp(world.lights, &receiver, hit.lamp, sample.wi, hit.t);
             assert_near(pdf / sample.pdf, 1.0, 1e-4);
             assert_near(hit.radiance.y / sample.radiance.y, 1.0, 1e-3);
             const ppmi_vec3 target = vec3_mad(position, sample.wi, hit.t);

@@ -170,6 +170,7 @@ static void the_density_of_a_sample_is_that_of_its_surface(void **state)
     light_environment(test.scene, vec3_splat(0.5f), 0, 0.0f);
     world_open(&world, &test);
     const ppmi_vec3 p = vec3(0.2f, 0.1f, -0.3f), up = vec3(0, 1, 0);
+    const ppmi_receiver at = {.position = p, .normal = up};
     ppmi_rng rng = ppmi_rng_start(4, PPMI_STREAM_EYE, 0);
     uint32_t on_surfaces = 0, in_sky = 0;
     for (int i = 0; i < 5000; i++) {
@@ -178,7 +179,7 @@ static void the_density_of_a_sample_is_that_of_its_surface(void **state)
         ppmi_light_sample s;
         if (!ppmi_lights_sample(world.lights, p, up, pick, u, v, &s)) continue;
         if (s.is_far) {
-            assert_near(ppmi_lights_pdf_environment(world.lights, up, s.wi) / s.pdf, 1.0, 1e-4);
+            assert_near(ppmi_lights_pdf_environment(world.lights, &at, s.wi) / s.pdf, 1.0, 1e-4);
             in_sky++;
             continue;
         }
@@ -189,7 +190,7 @@ static void the_density_of_a_sample_is_that_of_its_surface(void **state)
         if (fabsf(hit.t - distance) > 1e-3f) continue; /* another one in the way */
         ppmi_surface surface;
         ppmi_surface_from_hit(test.scene, &hit, &surface);
-        const float pdf = ppmi_lights_pdf_surface(world.lights, &hit, &surface, s.wi, hit.t);
+        const float pdf = ppmi_lights_pdf_surface(world.lights, &at, &hit, &surface, s.wi, hit.t);
         const double cosine = fabs((double)vec3_dot(s.wi, surface.ng));
         assert_near(pdf / s.pdf, 1.0, 1e-4 + 1e-5 / cosine);
         on_surfaces++;
@@ -197,7 +198,8 @@ static void the_density_of_a_sample_is_that_of_its_surface(void **state)
     assert_true(on_surfaces > 1000 && in_sky > 2000);
     const ppmi_surface box = world_hit(&world, vec3(0, -1.9f, 0), vec3(0, -1, 0));
     const ppmi_hit dark = {.instance = 0, .triangle = box.triangle};
-    assert_near(ppmi_lights_pdf_surface(world.lights, &dark, &box, vec3(0, -1, 0), 1.0f), 0, 0);
+    assert_near(ppmi_lights_pdf_surface(world.lights, &at, &dark, &box, vec3(0, -1, 0), 1.0f), 0,
+                0);
 }
 
 /* The target lies off the light's surface, on the side that is lit. */
