@@ -99,7 +99,8 @@ PPM_API ppm_status ppm_scene_read_image_row(const ppm_scene *scene, ppm_image_id
 
 /* Decodes and keeps count images, as many at once as there are processors. Ids and messages are in
  * the order of descs, whatever image is ready first. out_ids and out_statuses have count entries: 0
- * and what ppm_scene_add_image would have returned for an image that fails; the others are added.
+ * and what ppm_scene_add_image would have returned for an image that fails, of which the log tells
+ * as a warning, unless memory is out; the others are added.
  * Returns OK also where images fail; INVALID_ARGUMENT for a desc that is not valid (nothing is
  * added then), OUT_OF_MEMORY, WRONG_STATE. */
 PPM_API ppm_status ppm_scene_add_images(ppm_scene *scene, const ppm_image_desc *descs,

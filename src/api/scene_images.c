@@ -300,7 +300,11 @@ ppm_status ppm_scene_add_images(ppm_scene *scene, const ppm_image_desc *descs, u
     }
     decode_all(scene->context, scene->color, descs, count, all, out_statuses);
     for (uint32_t i = 0; i < count; i++) {
-        ppmi_context_join(all[i].context);
+        if (out_statuses[i] == PPM_STATUS_OUT_OF_MEMORY) {
+            ppmi_context_join(all[i].context);
+        } else {
+            ppmi_context_join_as_warnings(all[i].context);
+        }
         out_ids[i] = 0;
         if (out_statuses[i] != PPM_STATUS_OK) continue;
         out_statuses[i] = take(scene, &all[i].image, &out_ids[i]);

@@ -175,16 +175,26 @@ ppm_context *ppmi_context_fork(ppm_context *parent)
     return fork;
 }
 
-void ppmi_context_join(ppm_context *fork)
+static void join(ppm_context *fork, ppm_log_level worst)
 {
     if (!fork) return;
     while (fork->first) {
         waiting_message *const message = fork->first;
-        deliver(fork->parent, message->level, message->text);
+        deliver(fork->parent, message->level < worst ? worst : message->level, message->text);
         fork->first = message->next;
         free(message);
     }
     ppm_context_destroy(fork);
+}
+
+void ppmi_context_join(ppm_context *fork)
+{
+    join(fork, PPM_LOG_ERROR);
+}
+
+void ppmi_context_join_as_warnings(ppm_context *fork)
+{
+    join(fork, PPM_LOG_WARNING);
 }
 
 /* Who keeps the books of memory. */

@@ -32,6 +32,8 @@ ppm_context *ppmi_context_fork(ppm_context *parent);
 /* Delivers the messages to the parent, in their order, and destroys the fork. Called for one task
  * after the other, it makes the log the same however the tasks ran. NULL is fine. */
 void ppmi_context_join(ppm_context *fork);
+/* The same with its errors as warnings: of a task that may fail without harm to the whole. */
+void ppmi_context_join_as_warnings(ppm_context *fork);
 
 /* count * element_size bytes, aligned to 64, not initialised. NULL when memory is out (or all
  * blocks of the context together would be more than the machine has), when the product overflows,
