@@ -41,7 +41,7 @@ enum {
 /* Where photons are sent. */
 enum {
     PPM_AIM_DEFAULT = 0, /* LEARNT */
-    PPM_AIM_LEARNT = 1,  /* mostly to where a pilot pass had photons that were seen */
+    PPM_AIM_LEARNT = 1,  /* mostly to where they matter for the picture */
     PPM_AIM_EVEN = 2     /* by power alone, towards the scene */
 };
 
@@ -199,6 +199,13 @@ PPM_API void ppm_render_cancel(ppm_render *render);
 /* The options in effect. Valid until ppm_render_destroy. */
 PPM_API const ppm_render_options *ppm_render_get_options(const ppm_render *render);
 
+/* What became of the photons of one light, in the last round of learning where to send them. */
+typedef struct ppm_light_use {
+    const char *name;  /* of a lamp, or of the instance that shines; "environment" */
+    double sent_share; /* of all photons */
+    double used_share; /* of those that it sent: the picture has light of them */
+} ppm_light_use;
+
 typedef struct ppm_render_stats {
     uint32_t size;            /* sizeof(ppm_render_stats), set by the caller */
     uint64_t passes;          /* finished */
@@ -212,6 +219,10 @@ typedef struct ppm_render_stats {
     double seconds_photons;
     double seconds_gather;
     uint32_t threads;
+    double photons_used_share; /* photons that the picture has light of, of those that are sent, by
+                                  the last round of learning; below 0: nothing is learnt */
+    const ppm_light_use *light_uses; /* of the lights that send photons; until the session ends */
+    uint32_t light_use_count;
 } ppm_render_stats;
 
 /* Not while another thread is in ppm_render_advance. */

@@ -177,6 +177,22 @@ static json_t *counts_json(const ppm_render_stats *stats)
                      "threads", count_json(stats->threads));
 }
 
+/* The share of photons that were of use, in all and by light; null where nobody knows. */
+static void add_use(json_t *object, const ppm_render_stats *stats)
+{
+    const bool is_known = stats->photons_used_share >= 0.0;
+    json_object_set_new(object, "photons_used_share",
+                        is_known ? json_real(stats->photons_used_share) : json_null());
+    json_t *const lights = json_array();
+    for (uint32_t i = 0; lights && i < stats->light_use_count; i++) {
+        const ppm_light_use *const use = &stats->light_uses[i];
+        json_array_append_new(lights, json_pack("{s:o, s:f, s:f}", "light", text_json(use->name),
+                                                "sent_share", use->sent_share, "used_share",
+                                                use->used_share));
+    }
+    json_object_set_new(object, "photons_by_light", lights);
+}
+
 static json_t *times_json(const ppm_render_stats *stats, double total_s, double import_s)
 {
     return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:o}", //
@@ -200,6 +216,7 @@ static json_t *render_json(const ppm_render *render, double total_s, double impo
     json_t *const result = settings_json(ppm_render_get_options(render));
     if (!result) return NULL;
     json_object_update_new(result, counts_json(&stats));
+    add_use(result, &stats);
     json_object_update_new(result, times_json(&stats, total_s, import_s));
     return result;
 }

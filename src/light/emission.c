@@ -150,28 +150,10 @@ float ppmi_lights_crowding(const ppmi_lights *lights, ppmi_vec3 radiance)
     return lights->power > 0.0f ? vec3_max_component(radiance) / lights->power : 0.0f;
 }
 
-uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups)
+bool ppmi_lights_emit_of(const ppmi_lights *lights, uint32_t emitter, float time, double u_cell,
+                         const float u[4], ppmi_emission *out_emission)
 {
-    if (lights->count == 0) return 0;
-    const uint32_t i = ppmi_alias_sample(&lights->by_power, u_pick, NULL);
-    const uint32_t triangles = lights->triangle_count, others = lights->count - triangles;
-    const uint32_t half = groups / 2;
-    const uint32_t singles = others < half ? others : half;
-    if (i >= triangles) { /* emitters begin with the triangles */
-        const uint32_t index = i - triangles;
-        return index < singles ? index : singles - 1;
-    }
-    return singles + (uint32_t)((uint64_t)i * (groups - singles) / triangles);
-}
-
-bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, const float u[4],
-                         ppmi_emission *out_emission)
-{
-    if (lights->count == 0) return false;
-    double rest;
-    const uint32_t i = ppmi_alias_sample(&lights->by_power, u_pick, &rest);
-    const ppmi_emitter *e = &lights->emitters[i];
-    const float probability = ppmi_alias_probability(&lights->by_power, i);
+    const ppmi_emitter *e = &lights->emitters[emitter];
     bool emitted = true;
     out_emission->crowding = INFINITY;
     if (e->kind == PPMI_EMITTER_TRIANGLE) {
@@ -183,12 +165,24 @@ bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, c
     } else if (e->kind == PPMI_EMITTER_SUN) {
         emit_sun(lights, &lights->suns[e->primitive], u, out_emission);
     } else {
-        emitted = emit_environment(lights, rest, u, out_emission);
+        emitted = emit_environment(lights, u_cell, u, out_emission);
     }
-    if (!emitted || !(probability > 0.0f)) return false;
     out_emission->ray.time = time;
-    out_emission->emitter = i;
-    out_emission->is_far = i >= lights->near_count;
+    out_emission->emitter = emitter;
+    out_emission->is_far = emitter >= lights->near_count;
+    return emitted;
+}
+
+bool ppmi_lights_emit_at(const ppmi_lights *lights, float time, double u_pick, const float u[4],
+                         ppmi_emission *out_emission)
+{
+    if (lights->count == 0) return false;
+    double rest;
+    const uint32_t i = ppmi_alias_sample(&lights->by_power, u_pick, &rest);
+    const float probability = ppmi_alias_probability(&lights->by_power, i);
+    if (!ppmi_lights_emit_of(lights, i, time, rest, u, out_emission) || !(probability > 0.0f)) {
+        return false;
+    }
     out_emission->power = vec3_scale(out_emission->power, 1.0f / probability);
     return !vec3_is_black(out_emission->power);
 }

@@ -141,7 +141,13 @@ float ppmi_environment_map_sample(const ppmi_environment_map *map, double u_cell
         *out_direction = ppmi_sample_sphere(u, v);
         return 1.0f / (4.0f * PPMI_PI);
     }
-    const uint32_t cell = ppmi_alias_sample(&map->cells, u_cell, NULL);
+    return ppmi_environment_map_sample_cell(map, ppmi_alias_sample(&map->cells, u_cell, NULL), u, v,
+                                            out_direction);
+}
+
+float ppmi_environment_map_sample_cell(const ppmi_environment_map *map, uint32_t cell, float u,
+                                       float v, ppmi_vec3 *out_direction)
+{
     const uint32_t row = cell / map->columns, column = cell % map->columns;
     /* even in solid angle within the cell: even in the cosine of the polar angle */
     const float top = cosf(PPMI_PI * (float)row / (float)map->rows);

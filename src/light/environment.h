@@ -30,6 +30,10 @@ ppmi_vec3 ppmi_environment_map_radiance(const ppmi_environment_map *map, ppmi_ve
 /* Draws a direction by power (evenly for a constant map); returns its density by solid angle. */
 float ppmi_environment_map_sample(const ppmi_environment_map *map, double u_cell, float u, float v,
                                   ppmi_vec3 *out_direction);
+
+/* The same within a cell of an image that was drawn by its probability. */
+float ppmi_environment_map_sample_cell(const ppmi_environment_map *map, uint32_t cell, float u,
+                                       float v, ppmi_vec3 *out_direction);
 float ppmi_environment_map_pdf(const ppmi_environment_map *map, ppmi_vec3 direction);
 
 #endif

@@ -78,9 +78,14 @@ static float sample_ball(const ppmi_lamp *lamp, ppmi_vec3 position, float u, flo
 ppmi_vec3 ppmi_lamp_ball_origin(const ppmi_punctual *light, ppmi_vec3 direction, float u, float v)
 {
     const ppmi_frame frame = ppmi_frame_from_normal(direction);
-    const ppmi_vec2 d = ppmi_sample_disk(u, v);
-    const float ahead = sqrtf(ppmi_max(0.0f, 1.0f - d.x * d.x - d.y * d.y));
-    return vec3_mad(light->position, ppmi_frame_to_world(&frame, vec3(d.x, d.y, ahead)),
+    return ppmi_lamp_ball_origin_at(light, &frame, ppmi_sample_disk(u, v));
+}
+
+ppmi_vec3 ppmi_lamp_ball_origin_at(const ppmi_punctual *light, const ppmi_frame *frame,
+                                   ppmi_vec2 at)
+{
+    const float ahead = sqrtf(ppmi_max(0.0f, 1.0f - at.x * at.x - at.y * at.y));
+    return vec3_mad(light->position, ppmi_frame_to_world(frame, vec3(at.x, at.y, ahead)),
                     light->radius_m);
 }
 
@@ -122,12 +127,17 @@ static float sample_flat(const ppmi_lamp *lamp, ppmi_vec3 position, float u, flo
     return ppmi_lamp_pdf(lamp, position, *out_wi, distance);
 }
 
+ppmi_vec3 ppmi_lamp_flat_origin(const ppmi_lamp *lamp, float u, float v)
+{
+    return vec3_mad(flat_point(lamp, u, v), lamp->light->direction, lamp->error);
+}
+
 ppmi_ray ppmi_lamp_flat_ray(const ppmi_lamp *lamp, const float u[4])
 {
     const ppmi_vec3 n = lamp->light->direction;
     const ppmi_frame frame = ppmi_frame_from_normal(n);
     const ppmi_vec3 local = ppmi_sample_cosine_hemisphere(u[2], u[3]);
-    return (ppmi_ray){.origin = vec3_mad(flat_point(lamp, u[0], u[1]), n, lamp->error),
+    return (ppmi_ray){.origin = ppmi_lamp_flat_origin(lamp, u[0], u[1]),
                       .t_max = INFINITY,
                       .direction = vec3_normalize(ppmi_frame_to_world(&frame, local))};
 }

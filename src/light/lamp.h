@@ -6,6 +6,7 @@
 
 #include "accel/accel.h"
 #include "light/punctual.h"
+#include "math/sampling.h"
 
 typedef enum ppmi_lamp_shape {
     PPMI_LAMP_BALL,
@@ -46,7 +47,13 @@ float ppmi_lamp_pdf(const ppmi_lamp *lamp, ppmi_vec3 position, ppmi_vec3 wi, flo
 /* A flat lamp's photon: origin and direction, by the cosine. */
 ppmi_ray ppmi_lamp_flat_ray(const ppmi_lamp *lamp, const float u[4]);
 
-/* Where a photon along direction leaves the ball: even over the outline seen from there. */
+/* Where that starts: a place of the flat lamp, off it by the error bound. */
+ppmi_vec3 ppmi_lamp_flat_origin(const ppmi_lamp *lamp, float u, float v);
+
+/* Where a photon along direction leaves the ball: even over the outline seen from there, or
+ * at a place of that outline as a unit disk; frame.n: the direction. */
 ppmi_vec3 ppmi_lamp_ball_origin(const ppmi_punctual *light, ppmi_vec3 direction, float u, float v);
+ppmi_vec3 ppmi_lamp_ball_origin_at(const ppmi_punctual *light, const ppmi_frame *frame,
+                                   ppmi_vec2 at);
 
 #endif

@@ -338,3 +338,12 @@ uint64_t ppmi_lights_count(const ppmi_lights *lights)
 {
     return lights->count;
 }
+
+size_t ppmi_lights_source(const ppmi_lights *lights, uint32_t emitter)
+{
+    const ppmi_emitter *e = &lights->emitters[emitter];
+    const size_t lamps = lights->scene->punctual_count;
+    if (e->kind == PPMI_EMITTER_TRIANGLE) return lamps + e->instance;
+    if (e->kind == PPMI_EMITTER_ENVIRONMENT) return lamps + lights->scene->instance_count;
+    return e->triangle;
+}

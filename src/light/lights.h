@@ -16,6 +16,10 @@ void ppmi_lights_destroy(ppmi_lights *lights);
 /* Number of emitters: punctual lights, emissive triangles, 1 for an environment. */
 uint64_t ppmi_lights_count(const ppmi_lights *lights);
 
+/* Whose light an emitter's is: 0 .. of the scene's lamps, then of its instances, then of the
+ * environment. */
+size_t ppmi_lights_source(const ppmi_lights *lights, uint32_t emitter);
+
 /* Who asks for light: what lights are chosen by. */
 typedef struct ppmi_receiver {
     ppmi_vec3 position;
@@ -146,11 +150,6 @@ typedef struct ppmi_emission {
  * squared and steradian (of projected area, as radiance). Where none is aimed, it is that exactly.
  */
 float ppmi_lights_crowding(const ppmi_lights *lights, ppmi_vec3 radiance);
-
-/* Which of at most groups groups of lights u_pick chooses: lights of one group take u alike. Lamps
- * and far lights come first, each by itself as far as the groups suffice, then ranges of triangles.
- */
-uint32_t ppmi_lights_group(const ppmi_lights *lights, double u_pick, uint32_t groups);
 
 /* u: four numbers, stratified where possible; time: within the shutter. False for a photon that
  * carries nothing. */

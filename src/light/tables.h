@@ -134,4 +134,9 @@ static inline ppmi_vec3 ppmi_emitter_radiance(const ppmi_lights *lights,
                       ppmi_surface_opacity(lights->scene, surface));
 }
 
+/* A photon of one emitter, whose power is the emitter's whole. u_cell: for an environment's image.
+ */
+bool ppmi_lights_emit_of(const ppmi_lights *lights, uint32_t emitter, float time, double u_cell,
+                         const float u[4], ppmi_emission *out_emission);
+
 #endif

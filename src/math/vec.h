@@ -157,6 +157,22 @@ typedef struct ppmi_frame {
     ppmi_vec3 s, t, n;
 } ppmi_frame;
 
+/* The least and the greatest of each component. */
+static inline ppmi_vec3 vec3_lower(ppmi_vec3 a, ppmi_vec3 b)
+{
+    return vec3(ppmi_min(a.x, b.x), ppmi_min(a.y, b.y), ppmi_min(a.z, b.z));
+}
+
+static inline ppmi_vec3 vec3_upper(ppmi_vec3 a, ppmi_vec3 b)
+{
+    return vec3(ppmi_max(a.x, b.x), ppmi_max(a.y, b.y), ppmi_max(a.z, b.z));
+}
+
+static inline float vec3_component(ppmi_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 /* Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017. */
 static inline ppmi_frame ppmi_frame_from_normal(ppmi_vec3 n)
 {

@@ -120,11 +120,20 @@ static void add_to_layers(const ppmi_gather_layers *layers, const ppmi_visible_p
     ppmi_light_sink_add_photon(layers->sink, point->eye_class, &point->bsdf, albedo, &light);
 }
 
+static void add_to_marks(const ppmi_gather_marks *marks, const ppmi_visible_point *point,
+                         uint32_t photon, ppmi_vec3 contribution)
+{
+    const float most = 1e12f;
+    const float share = vec3_mean(vec3_mul(contribution, point->throughput)) * marks->scale;
+    const float rounded = share < most ? share + 0.5f : most;
+    atomic_fetch_add_explicit(&marks->sums[photon], (uint64_t)rounded, memory_order_relaxed);
+}
+
 /* region, marks and layers may be NULL. */
 static inline __attribute__((always_inline)) ppmi_gathered
 gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
        const ppmi_visible_point *point, float radius, const ppmi_gather_region *region,
-       atomic_uchar *marks, const ppmi_gather_layers *layers)
+       const ppmi_gather_marks *marks, const ppmi_gather_layers *layers)
 {
     const ppmi_bsdf *bsdf = &point->bsdf;
     const bool is_phase = ppmi_bsdf_is_phase(bsdf);
@@ -165,7 +174,7 @@ gather(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                     add_to_layers(layers, point, albedo, grid->order[indices[k]], contribution);
                 }
                 if (marks && counts) {
-                    atomic_store_explicit(&marks[grid->order[indices[k]]], 1, memory_order_relaxed);
+                    add_to_marks(marks, point, grid->order[indices[k]], contribution);
                 }
             }
         }
@@ -190,7 +199,7 @@ ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_a
 
 void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                       const ppmi_visible_point *point, float radius,
-                      const ppmi_gather_region *region, atomic_uchar *marks)
+                      const ppmi_gather_region *region, const ppmi_gather_marks *marks)
 {
     gather(grid, albedo, point, radius, region, marks, NULL);
 }

@@ -38,10 +38,15 @@ ppmi_gathered ppmi_gather_with_layers(const ppmi_photon_grid *grid, const ppmi_a
                                       const ppmi_gather_region *region,
                                       const ppmi_gather_layers *layers);
 
-/* Marks the photons that a gathering there would count, each at its place in the list that the grid
- * was built from. Any thread: marks of several are the same. */
+/* Adds to each photon that a gathering there would count, at its place in the list that the grid
+ * was built from, the mean of what it brings times scale, rounded: whole numbers are summed in any
+ * order alike. Any thread. */
+typedef struct ppmi_gather_marks {
+    _Atomic uint64_t *sums;
+    float scale;
+} ppmi_gather_marks;
 void ppmi_gather_mark(const ppmi_photon_grid *grid, const ppmi_albedo_table *albedo,
                       const ppmi_visible_point *point, float radius,
-                      const ppmi_gather_region *region, atomic_uchar *marks);
+                      const ppmi_gather_region *region, const ppmi_gather_marks *marks);
 
 #endif

@@ -1,151 +1,198 @@
 /* Learning and drawing. */
 #include "photon/guide.h"
 
-static uint32_t bin_of(double x, uint32_t count)
-{
-    const uint32_t bin = (uint32_t)(x * (double)count);
-    return bin < count ? bin : count - 1;
-}
+#include <math.h>
 
-static uint32_t group_of(const ppmi_lights *lights, double pick)
-{
-    return ppmi_lights_group(lights, pick, PPMI_GUIDE_GROUPS);
-}
+enum { BINS = 8, MAX_DEPTH = 48 };
 
 /* ---- learning -------------------------------------------------------------------------------- */
 
-void ppmi_guide_count(ppmi_guide_counts *counts, const ppmi_lights *lights,
-                      const ppmi_emission_sample *sample)
+/* A node while the tree grows: the photons in its cell, and what they say. */
+typedef struct cell {
+    ppmi_guide_seen *seen;
+    size_t count;
+    double low[PPMI_GUIDE_AXES], size[PPMI_GUIDE_AXES];
+    double volume;
+    double depth;
+} cell;
+
+typedef struct growth {
+    ppmi_photon_guide *guide;
+    double mass[PPMI_GUIDE_MAX_NODES]; /* what photons of the cell bring */
+    double volume[PPMI_GUIDE_MAX_NODES];
+} growth;
+
+/* The sum of a cell's weights, and the number of photons of equal weight that say as much. */
+static double weigh(const cell *c, double *out_effective)
 {
-    const uint32_t group = group_of(lights, sample->pick);
-    counts->picks[bin_of(sample->pick, PPMI_GUIDE_PICKS)]++;
-    for (uint32_t plane = 0; plane < 2; plane++) {
-        const uint32_t row = bin_of((double)sample->u[2 * plane], PPMI_GUIDE_SIDE);
-        const uint32_t column = bin_of((double)sample->u[2 * plane + 1], PPMI_GUIDE_SIDE);
-        counts->planes[group][plane][row][column]++;
+    double sum = 0.0, squares = 0.0;
+    for (size_t i = 0; i < c->count; i++) {
+        sum += c->seen[i].weight;
+        squares += c->seen[i].weight * c->seen[i].weight;
+    }
+    *out_effective = squares > 0.0 ? sum * sum / squares : 0.0;
+    return sum;
+}
+
+/* How like each other slices of the cell along an axis are: the coefficient of Bhattacharyya of
+ * what they bring and even bars, 1 for alike. */
+static double sliced(const cell *c, int axis, double weight)
+{
+    double bins[BINS] = {0.0};
+    for (size_t i = 0; i < c->count; i++) {
+        const double at = (c->seen[i].sample.x[axis] - c->low[axis]) / c->size[axis];
+        const int bin = (int)(at * BINS);
+        bins[bin < 0 ? 0 : bin < BINS ? bin : BINS - 1] += c->seen[i].weight;
+    }
+    double sum = 0.0;
+    for (int i = 0; i < BINS; i++)
+        sum += sqrt(bins[i] / BINS);
+    return sum / sqrt(weight);
+}
+
+/* The axis that tells a cell's photons apart best; -1 where the difference may be chance. */
+static int axis_of(const cell *c)
+{
+    const double least_photons = 24.0, least_gain = 0.02, chance = 1.5;
+    double effective;
+    const double weight = weigh(c, &effective);
+    if (effective < least_photons) return -1;
+    double best = 1.0 - least_gain - chance * (BINS - 1) / (8.0 * effective);
+    int best_axis = -1;
+    for (int axis = 0; axis < PPMI_GUIDE_AXES; axis++) {
+        const double left = sliced(c, axis, weight);
+        if (c->size[axis] < 0x1p-20 || !(left < best)) continue;
+        best = left;
+        best_axis = axis;
+    }
+    return best_axis;
+}
+
+static size_t part_at(const cell *c, int axis, double middle)
+{
+    size_t lower = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        if (!(c->seen[i].sample.x[axis] < middle)) continue;
+        const ppmi_guide_seen seen = c->seen[i];
+        c->seen[i] = c->seen[lower];
+        c->seen[lower++] = seen;
+    }
+    return lower;
+}
+
+/* The two halves of a cell. */
+static void halve(const cell *c, int axis, cell halves[2])
+{
+    const double half = 0.5 * c->size[axis], middle = c->low[axis] + half;
+    const size_t lower = part_at(c, axis, middle);
+    halves[0] = halves[1] = *c;
+    halves[0].count = lower;
+    halves[1].seen += lower;
+    halves[1].count -= lower;
+    halves[1].low[axis] = middle;
+    for (int i = 0; i < 2; i++) {
+        halves[i].size[axis] = half;
+        halves[i].volume *= 0.5;
+        halves[i].depth++;
     }
 }
 
-/* Sums of the counts, each with one more: a bin that the pilot missed is not ruled out. */
-static void accumulate(const uint32_t *counts, uint32_t count, float *cumulative)
+/* Breadth first: where nodes run out, all places are about as fine. */
+static void grow(growth *g, cell *cells)
 {
-    double total = 0.0, sum = 0.0;
-    for (uint32_t i = 0; i < count; i++)
-        total += (double)counts[i] + 1.0;
-    for (uint32_t i = 0; i < count; i++) {
-        cumulative[i] = (float)(sum / total);
-        sum += (double)counts[i] + 1.0;
+    ppmi_photon_guide *guide = g->guide;
+    for (uint32_t i = 0; i < guide->count; i++) {
+        const cell *c = &cells[i];
+        ppmi_guide_node *node = &guide->nodes[i];
+        *node = (ppmi_guide_node){.lower = 0.5};
+        double effective;
+        g->volume[i] = c->volume;
+        g->mass[i] = weigh(c, &effective);
+        const int axis = c->depth < MAX_DEPTH ? axis_of(c) : -1;
+        if (axis < 0 || guide->count + 2 > PPMI_GUIDE_MAX_NODES) continue;
+        node->axis = (uint16_t)axis;
+        node->children = (uint16_t)guide->count;
+        halve(c, axis, &cells[guide->count]);
+        guide->count += 2;
     }
-    cumulative[count] = 1.0f;
 }
 
-static void learn_plane(ppmi_guide_plane *plane,
-                        const uint32_t counts[PPMI_GUIDE_SIDE][PPMI_GUIDE_SIDE])
+/* Each half's share of its cell: by what it brings, but for the share that is even. */
+static void share(growth *g)
 {
-    uint32_t rows[PPMI_GUIDE_SIDE];
-    for (uint32_t row = 0; row < PPMI_GUIDE_SIDE; row++) {
-        rows[row] = 0;
-        for (uint32_t column = 0; column < PPMI_GUIDE_SIDE; column++)
-            rows[row] += counts[row][column];
-        accumulate(counts[row], PPMI_GUIDE_SIDE, plane->columns[row]);
-    }
-    accumulate(rows, PPMI_GUIDE_SIDE, plane->rows);
-}
-
-void ppmi_guide_learn(ppmi_photon_guide *guide, const ppmi_guide_counts *counts)
-{
-    accumulate(counts->picks, PPMI_GUIDE_PICKS, guide->picks);
-    for (uint32_t group = 0; group < PPMI_GUIDE_GROUPS; group++) {
-        for (uint32_t plane = 0; plane < 2; plane++) {
-            learn_plane(&guide->planes[group][plane], counts->planes[group][plane]);
+    ppmi_photon_guide *guide = g->guide;
+    const double total = g->mass[0], even = total > 0.0 ? PPMI_GUIDE_EVEN_SHARE : 1.0;
+    for (uint32_t i = 0; i < guide->count; i++) {
+        const uint32_t k = guide->nodes[i].children;
+        if (k == 0) continue;
+        double shares[2];
+        for (uint32_t c = 0; c < 2; c++) {
+            shares[c] = even * g->volume[k + c];
+            if (total > 0.0) shares[c] += (1.0 - even) * g->mass[k + c] / total;
         }
+        guide->nodes[i].lower = shares[0] / (shares[0] + shares[1]);
     }
+}
+
+ppm_status ppmi_guide_learn(ppm_context *context, ppmi_photon_guide *guide, ppmi_guide_seen *seen,
+                            size_t count)
+{
+    growth *g = ppmi_alloc(context, 1, sizeof *g);
+    cell *cells = ppmi_alloc(context, PPMI_GUIDE_MAX_NODES, sizeof *cells);
+    const bool has_memory = g && cells;
+    if (has_memory) {
+        g->guide = guide;
+        cells[0] = (cell){.seen = seen, .count = count, .volume = 1.0};
+        for (int axis = 0; axis < PPMI_GUIDE_AXES; axis++)
+            cells[0].size[axis] = 1.0;
+        guide->count = 1;
+        grow(g, cells);
+        share(g);
+    }
+    ppmi_free(context, g);
+    ppmi_free(context, cells);
+    return has_memory ? PPM_STATUS_OK
+                      : ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-/* The bin of a cumulative table that u falls to. */
-static uint32_t find(const float *cumulative, uint32_t count, double u)
+double ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_emission_sample *sample)
 {
-    uint32_t low = 0, high = count;
-    while (high - low > 1) {
-        const uint32_t middle = (low + high) / 2;
-        if ((double)cumulative[middle] <= u) {
-            low = middle;
-        } else {
-            high = middle;
-        }
+    ppmi_emission_sample rest = *sample;
+    double density = 1.0;
+    const ppmi_guide_node *node = guide->nodes;
+    while (node->children > 0) {
+        double *x = &rest.x[node->axis];
+        const bool is_upper = *x >= 0.5;
+        const double lower = node->lower;
+        *x = 2.0 * *x - (is_upper ? 1.0 : 0.0);
+        density *= 2.0 * (is_upper ? 1.0 - lower : lower);
+        node = &guide->nodes[node->children + is_upper];
     }
-    return low;
+    return density;
 }
 
-/* Moves u to where the density of the table takes it. */
-static double warp(const float *cumulative, uint32_t count, double u)
+double ppmi_guide_warp(const ppmi_photon_guide *guide, ppmi_emission_sample *sample)
 {
-    const uint32_t bin = find(cumulative, count, u);
-    const double width = (double)cumulative[bin + 1] - (double)cumulative[bin];
-    const double within = (u - (double)cumulative[bin]) / width;
-    const double moved = ((double)bin + (within < 1.0 ? within : 0.5)) / (double)count;
-    return moved < 1.0 ? moved : 0x1.fffffffffffffp-1;
-}
-
-static float density(const float *cumulative, uint32_t count, uint32_t bin)
-{
-    return (cumulative[bin + 1] - cumulative[bin]) * (float)count;
-}
-
-static float unit_float(double x)
-{
-    const float value = (float)x;
-    return value < 1.0f ? value : 0x1.fffffep-1f;
-}
-
-static void warp_plane(const ppmi_guide_plane *plane, float *u, float *v)
-{
-    const double row = warp(plane->rows, PPMI_GUIDE_SIDE, (double)*u);
-    *u = unit_float(row);
-    const uint32_t bin = bin_of((double)*u, PPMI_GUIDE_SIDE);
-    *v = unit_float(warp(plane->columns[bin], PPMI_GUIDE_SIDE, (double)*v));
-}
-
-static float plane_density(const ppmi_guide_plane *plane, float u, float v)
-{
-    const uint32_t row = bin_of((double)u, PPMI_GUIDE_SIDE);
-    const uint32_t column = bin_of((double)v, PPMI_GUIDE_SIDE);
-    return density(plane->rows, PPMI_GUIDE_SIDE, row) *
-           density(plane->columns[row], PPMI_GUIDE_SIDE, column);
-}
-
-static float guided_density(const ppmi_photon_guide *guide, const ppmi_lights *lights,
-                            const ppmi_emission_sample *sample)
-{
-    const ppmi_guide_plane *planes = guide->planes[group_of(lights, sample->pick)];
-    const uint32_t pick = bin_of(sample->pick, PPMI_GUIDE_PICKS);
-    return density(guide->picks, PPMI_GUIDE_PICKS, pick) *
-           plane_density(&planes[0], sample->u[0], sample->u[1]) *
-           plane_density(&planes[1], sample->u[2], sample->u[3]);
-}
-
-float ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_lights *lights,
-                         const ppmi_emission_sample *sample)
-{
-    return PPMI_GUIDE_EVEN_SHARE +
-           (1.0f - PPMI_GUIDE_EVEN_SHARE) * guided_density(guide, lights, sample);
-}
-
-/* The choice between the guide and an even sample is made by the pick, whose rest stays even. */
-float ppmi_guide_warp(const ppmi_photon_guide *guide, const ppmi_lights *lights,
-                      ppmi_emission_sample *sample)
-{
-    const double even = (double)PPMI_GUIDE_EVEN_SHARE;
-    if (sample->pick < even) {
-        sample->pick /= even;
-    } else {
-        const double pick = (sample->pick - even) / (1.0 - even);
-        sample->pick = warp(guide->picks, PPMI_GUIDE_PICKS, pick);
-        const ppmi_guide_plane *planes = guide->planes[group_of(lights, sample->pick)];
-        warp_plane(&planes[0], &sample->u[0], &sample->u[1]);
-        warp_plane(&planes[1], &sample->u[2], &sample->u[3]);
+    double low[PPMI_GUIDE_AXES] = {0.0}, size[PPMI_GUIDE_AXES] = {1.0, 1.0, 1.0, 1.0, 1.0};
+    double density = 1.0;
+    const ppmi_guide_node *node = guide->nodes;
+    while (node->children > 0) {
+        const uint32_t axis = node->axis;
+        const double lower = node->lower, x = sample->x[axis];
+        const bool is_upper = x >= lower;
+        const double part = is_upper ? 1.0 - lower : lower;
+        sample->x[axis] = (is_upper ? x - lower : x) / part;
+        density *= 2.0 * part;
+        size[axis] *= 0.5;
+        if (is_upper) low[axis] += size[axis];
+        node = &guide->nodes[node->children + is_upper];
     }
-    return ppmi_guide_density(guide, lights, sample);
+    for (int axis = 0; axis < PPMI_GUIDE_AXES; axis++) {
+        const double last = 0x1.fffffffffffffp-1;
+        const double within = sample->x[axis] < last ? sample->x[axis] : last;
+        sample->x[axis] = low[axis] + size[axis] * within;
+    }
+    return density;
 }

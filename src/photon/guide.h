@@ -1,55 +1,59 @@
-/* Where photons are worth sending: the numbers of emission that led to photons which somebody saw.
+/* Where photons are worth sending: the numbers of emission that led to photons which were gathered.
  *
  * After Hachisuka and Jensen 2011, "Robust Adaptive Photon Tracing Using Photon Path Visibility":
- * the primary samples of a photon (choice of light, place, direction) are drawn more densely where
- * a pilot pass had photons that were gathered, and the power is divided by the density. Instead of
- * a Markov chain a histogram is learnt once: of the choice, and for each light of its two planes of
- * numbers. A share of all photons ignores it, so that no photon is worth much more than without. */
+ * the primary samples of a photon (choice of part and light, place, direction) are drawn more
+ * densely where pilot passes had photons that were gathered, and the power is divided by the
+ * density. Instead of a Markov chain a tree is learnt: each inner node halves its cell of the
+ * five-dimensional unit cube, leaves have a density each (as the trees of Müller, Gross, Novák
+ * 2017, "Practical Path Guiding", in the space of the numbers). A share of all photons is spread
+ * evenly, so that none is worth much more than without. */
 #ifndef PPMI_PHOTON_GUIDE_H
 #define PPMI_PHOTON_GUIDE_H
 
 #include <stdint.h>
 
-#include "light/lights.h"
+#include "base/context.h"
 
-enum { PPMI_GUIDE_PICKS = 64, PPMI_GUIDE_SIDE = 16, PPMI_GUIDE_GROUPS = 16 };
+enum { PPMI_GUIDE_AXES = 5, PPMI_GUIDE_MAX_NODES = 8191 };
 
-/* The numbers that a photon is emitted by, each in [0, 1). */
+/* Least density. */
+#define PPMI_GUIDE_EVEN_SHARE 0.2
+
+/* The numbers that a photon is emitted by, each in [0, 1): x[0] chooses part and light. */
 typedef struct ppmi_emission_sample {
-    double pick; /* of the light */
-    float u[4];
+    double x[PPMI_GUIDE_AXES];
 } ppmi_emission_sample;
 
-/* A piecewise constant density over the unit square, by cumulative sums. */
-typedef struct ppmi_guide_plane {
-    float rows[PPMI_GUIDE_SIDE + 1];
-    float columns[PPMI_GUIDE_SIDE][PPMI_GUIDE_SIDE + 1]; /* of each row */
-} ppmi_guide_plane;
+typedef struct ppmi_guide_node {
+    double lower;      /* share of its lower half */
+    uint16_t children; /* index of the lower half's node, the upper one's follows; 0: a leaf */
+    uint16_t axis;
+} ppmi_guide_node;
 
 typedef struct ppmi_photon_guide {
-    float picks[PPMI_GUIDE_PICKS + 1];
-    ppmi_guide_plane planes[PPMI_GUIDE_GROUPS]
-                           [2]; /* u[0], u[1] and u[2], u[3] by group of lights */
+    uint32_t count;
+    ppmi_guide_node nodes[PPMI_GUIDE_MAX_NODES];
 } ppmi_photon_guide;
 
-/* What a guide is learnt from: photons that were seen, by the bins of their samples. */
-typedef struct ppmi_guide_counts {
-    uint32_t picks[PPMI_GUIDE_PICKS];
-    uint32_t planes[PPMI_GUIDE_GROUPS][2][PPMI_GUIDE_SIDE][PPMI_GUIDE_SIDE];
-} ppmi_guide_counts;
+/* A photon that was gathered. weight: what it brought, with the power that it had. */
+typedef struct ppmi_guide_seen {
+    ppmi_emission_sample sample;
+    double weight;
+} ppmi_guide_seen;
 
-/* Counts an even sample that led to a photon which was seen. */
-void ppmi_guide_count(ppmi_guide_counts *counts, const ppmi_lights *lights,
-                      const ppmi_emission_sample *sample);
-void ppmi_guide_learn(ppmi_photon_guide *guide, const ppmi_guide_counts *counts);
+/* Learns from count photons, which are put into another order. The density of a cell is in
+ * proportion to what its photons bring for its size: so all photons bring about as much. (By the
+ * mean square, which would make the variance least, too few photons decide too much.) Returns OK,
+ * OUT_OF_MEMORY.
+ */
+ppm_status ppmi_guide_learn(ppm_context *context, ppmi_photon_guide *guide, ppmi_guide_seen *seen,
+                            size_t count);
 
 /* Density of a sample, by that of even ones: at least PPMI_GUIDE_EVEN_SHARE. */
-#define PPMI_GUIDE_EVEN_SHARE 0.3f
-float ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_lights *lights,
-                         const ppmi_emission_sample *sample);
+double ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_emission_sample *sample);
 
-/* Turns an even sample into one of the guide's density, which is returned. */
-float ppmi_guide_warp(const ppmi_photon_guide *guide, const ppmi_lights *lights,
-                      ppmi_emission_sample *sample);
+/* Turns an even sample into one of the guide's density, which is returned. Numbers that are
+ * stratified along an axis stay so. */
+double ppmi_guide_warp(const ppmi_photon_guide *guide, ppmi_emission_sample *sample);
 
 #endif

@@ -10,7 +10,8 @@ typedef struct ppmi_photon_map {
     ppmi_photon_scratch scratch;
     ppmi_photon_list photons[PPMI_PHOTON_KINDS];
     ppmi_photon_grid grids[PPMI_PHOTON_KINDS];
-    atomic_uchar *marks[PPMI_PHOTON_KINDS]; /* of the photons that were seen; or NULL */
+    _Atomic uint64_t
+        *marks[PPMI_PHOTON_KINDS]; /* what photons brought, while that is learnt from */
     const ppmi_accel *accel; /* what the photons landed on; NULL: disks are taken to be whole */
     float time;              /* of the photons, or any where nothing moves */
 } ppmi_photon_map;
@@ -24,16 +25,17 @@ void ppmi_photon_map_deinit(ppm_context *context, ppmi_photon_map *map);
 
 uint64_t ppmi_photon_map_count(const ppmi_photon_map *map);
 
-/* Learning a guide by a map that was filled without one: marks are made, visible points mark the
- * photons that they see (any thread), and the guide is learnt by those photons' emission. */
+/* Learning what photons do: marks are made, visible points mark the photons that they see (any
+ * thread; scale: of a photon's contribution to the share of all light there), and the paths of
+ * those are told. */
+#define PPMI_PHOTON_MARK 0x1p20f /* of a photon that is all the light of a pixel */
 ppm_status ppmi_photon_map_begin_marks(ppm_context *context, ppmi_photon_map *map);
+void ppmi_photon_map_end_marks(ppm_context *context, ppmi_photon_map *map);
 void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius);
-/* Frees the marks. *out_gain: how many times as many photons will be kept with the guide, 0 where
- * too little was seen to learn from. walk: the map's. Returns OK, OUT_OF_MEMORY. */
-ppm_status ppmi_photon_map_learn(ppm_context *context, ppmi_photon_map *map,
-                                 const ppmi_photon_walk *walk, ppmi_photon_guide *guide,
-                                 double *out_gain);
+                          const ppmi_visible_point *point, float radius, float scale);
+
+/* Adds up the marks of each path: out_sums, one for each of count paths, zero to begin with. */
+void ppmi_photon_map_sum_marks(const ppmi_photon_map *map, uint64_t *out_sums);
 
 /* Gathers at a visible point, of either kind, what lies in the region of gathering around it. */
 ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,

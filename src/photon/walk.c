@@ -195,42 +195,59 @@ static uint64_t stratified_seed(const ppmi_photon_walk *walk, uint64_t index)
     return walk->seed ^ ppmi_hash64((index >> 32) + PPMI_STREAM_PHOTON);
 }
 
-static ppmi_emission_sample start_photon(const ppmi_photon_walk *walk, ppmi_walker *walker,
-                                         uint32_t i)
+/* Draws the numbers of a photon's emission; returns their density. */
+static double start_photon(const ppmi_photon_walk *walk, ppmi_walker *walker, uint32_t i,
+                           ppmi_emission_sample *sample)
 {
     const uint64_t index = walk->first_index + i;
     const uint64_t seed = stratified_seed(walk, index);
-    ppmi_emission_sample sample = {.pick = ppmi_sobol1((uint32_t)index, 0, seed)};
     ppmi_walker_start(walker, ppmi_rng_start(walk->seed, PPMI_STREAM_PHOTON, index), seed,
                       (uint32_t)index, 0, STRATIFIED_SETS);
     if (walk->shutter_is_open) {
         walker->time =
             walk->has_one_time ? walk->time : (float)ppmi_sobol1((uint32_t)index, TIME_SET, seed);
     }
-    for (int k = 0; k < 4; k++)
-        sample.u[k] = ppmi_walker_float(walker);
-    return sample;
+    sample->x[0] = ppmi_sobol1((uint32_t)index, 0, seed);
+    for (int k = 1; k < PPMI_GUIDE_AXES; k++)
+        sample->x[k] = ppmi_walker_double(walker);
+    return walk->guide ? ppmi_guide_warp(walk->guide, sample) : 1.0;
 }
 
-ppmi_emission_sample ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i)
+double ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i,
+                               ppmi_emission_sample *out_sample)
 {
     ppmi_walker walker;
-    return start_photon(walk, &walker, i);
+    return start_photon(walk, &walker, i, out_sample);
+}
+
+static float unit_float(double x)
+{
+    const float value = (float)x;
+    return value < 1.0f ? value : 0x1.fffffep-1f;
+}
+
+static bool emit(const ppmi_photon_walk *walk, const ppmi_emission_sample *sample, float time,
+                 ppmi_emission *out_emission)
+{
+    const float u[4] = {unit_float(sample->x[1]), unit_float(sample->x[2]),
+                        unit_float(sample->x[3]), unit_float(sample->x[4])};
+    return walk->aim
+               ? ppmi_aim_emit(walk->aim, time, sample->x[0], u, out_emission)
+               : ppmi_lights_emit_at(walk->world->lights, time, sample->x[0], u, out_emission);
 }
 
 static bool walk_chunk(ppm_context *context, const ppmi_photon_walk *walk, uint32_t begin,
                        uint32_t end, ppmi_photon_list *lists, uint64_t *rays)
 {
-    const ppmi_lights *lights = walk->world->lights;
     ppmi_walker walker = {.world = walk->world};
     ppmi_solids_memory memory = {.is_known = false};
     for (uint32_t i = begin; i < end; i++) {
         if (atomic_load_explicit(walk->cancel, memory_order_relaxed)) break;
-        ppmi_emission_sample sample = start_photon(walk, &walker, i);
-        const float density = walk->guide ? ppmi_guide_warp(walk->guide, lights, &sample) : 1.0f;
+        ppmi_emission_sample sample;
+        const double density = start_photon(walk, &walker, i, &sample);
         ppmi_emission emission;
-        if (!ppmi_lights_emit_at(lights, walker.time, sample.pick, sample.u, &emission)) continue;
-        emission.power = vec3_scale(emission.power, 1.0f / density);
+        if (!emit(walk, &sample, walker.time, &emission)) continue;
+        emission.power = vec3_scale(emission.power, (float)(1.0 / density));
         walker.interior =
             ppmi_solids_around_photon(walk->world, &emission.ray, emission.is_far, &memory);
         if (!walk_photon(context, walk, &walker, emission, i, lists)) return false;

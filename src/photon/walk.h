@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "light/aim.h"
 #include "photon/guide.h"
 #include "photon/photon.h"
 #include "transport/light_layers.h"
@@ -16,7 +17,8 @@ typedef struct ppmi_photon_walk {
     uint32_t max_depth;
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
                              a light to light sampling, 0 keeps it */
-    const ppmi_photon_guide *guide;  /* where to send photons; NULL: evenly, by power */
+    const ppmi_aim *aim;  /* where to send photons; NULL: evenly, by power */
+    const ppmi_photon_guide *guide;  /* what is learnt about the numbers that aim takes, or NULL */
     bool tags_photons;               /* for layers of light, */
     const ppmi_light_groups *groups; /* with groups of lights; or NULL */
     bool shutter_is_open;            /* each photon has a time within it, */
@@ -36,8 +38,9 @@ typedef struct ppmi_photon_scratch {
 
 void ppmi_photon_scratch_deinit(ppm_context *context, ppmi_photon_scratch *scratch);
 
-/* The numbers that photon i of the walk is emitted by, before any guide. */
-ppmi_emission_sample ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i);
+/* The numbers that photon i of the walk is emitted by; returns their density. */
+double ppmi_photon_walk_sample(const ppmi_photon_walk *walk, uint32_t i,
+                               ppmi_emission_sample *out_sample);
 
 /* Emits count photons and appends those that land on gathering surfaces or are scattered in media
  * to the list of their kind, in the order of emission whatever the number of threads. Adds to

@@ -18,7 +18,7 @@ static const float largest_share = 0.05f;
 void ppmi_photon_pass_deinit(const ppmi_job *job, ppmi_photon_pass *photons)
 {
     ppmi_photon_map_deinit(job->context, &photons->map);
-    ppmi_free(job->context, photons->guide);
+    ppmi_photon_aim_deinit(job->context, &photons->aim);
 }
 
 /* A radius that few visible points are below: the smallest footprint over a coarse raster, without
@@ -50,10 +50,6 @@ static float measure_first_radius(const ppmi_job *job, float largest_radius)
 
 ppm_status ppmi_photon_pass_init(const ppmi_job *job, ppmi_photon_pass *photons)
 {
-    photons->guide = ppmi_alloc(job->context, 1, sizeof *photons->guide);
-    if (!photons->guide) {
-        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
-    }
     photons->per_pass = job->options->photons_per_pass;
     ppmi_vec3 low, high;
     if (!ppmi_scene_bounds(job->world.scene, &low, &high)) { /* an empty frame: any will do */
@@ -80,7 +76,8 @@ static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *pho
         .count = (uint32_t)per_pass,
         .max_depth = job->options->max_depth,
         .first_depth = job->options->direct == PPM_DIRECT_PHOTONS ? 0 : 1,
-        .guide = photons->has_guide ? photons->guide : NULL,
+        .aim = photons->aim.aim,
+        .guide = photons->aim.rounds > 0 ? photons->aim.guide : NULL,
         .tags_photons =
             ppmi_layers_have(job->options, PPM_LAYER_DIFFUSE_DIRECT, PPM_LAYER_GROUP_CAUSTICS) ||
             ppmi_layers_have(job->options, PPM_LAYER_LIGHT_VARIANCE, PPM_LAYER_LIGHT_VARIANCE),
@@ -93,15 +90,22 @@ static ppmi_photon_walk walk_of(const ppmi_job *job, const ppmi_photon_pass *pho
     };
 }
 
+static ppm_status run(const ppmi_job *job, ppmi_photon_pass *photons, const ppmi_photon_walk *walk,
+                      float radius_share, ppm_render_stats *stats)
+{
+    const double start = omp_get_wtime();
+    const ppm_status status = ppmi_photon_map_fill(
+        job->context, &photons->map, walk, photons->first_radius * radius_share, &stats->rays);
+    photons->in_map = walk->count;
+    stats->seconds_photons += omp_get_wtime() - start;
+    return status;
+}
+
 ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, uint64_t pass,
                                 float radius_share, ppm_render_stats *stats)
 {
-    const double start = omp_get_wtime();
     const ppmi_photon_walk walk = walk_of(job, photons, pass);
-    const ppm_status status = ppmi_photon_map_fill(
-        job->context, &photons->map, &walk, photons->first_radius * radius_share, &stats->rays);
-    stats->seconds_photons += omp_get_wtime() - start;
-    return status;
+    return run(job, photons, &walk, radius_share, stats);
 }
 
 /* ---- the pilot ------------------------------------------------------------------------------- */
@@ -112,40 +116,108 @@ static uint64_t pilot_pass(const ppmi_job *job, uint64_t number)
     return PPMI_PILOT_PASS / job->options->photons_per_pass + number;
 }
 
-bool ppmi_photon_pass_wants_guide(const ppmi_job *job, const ppmi_photon_pass *photons)
+/* Pilots by their numbers. */
+enum { PILOT_OF_RADII, PILOT_OF_EVEN, PILOTS_OF_ROUNDS };
+
+static ppmi_photon_walk pilot_walk(const ppmi_job *job, const ppmi_photon_pass *photons,
+                                   uint64_t number, uint64_t count)
 {
-    return job->options->aim != PPM_AIM_EVEN && !photons->has_guide;
+    ppmi_photon_walk walk = walk_of(job, photons, pilot_pass(job, number));
+    walk.count = (uint32_t)count;
+    return walk;
 }
 
-ppm_status ppmi_photon_pass_begin_guide(const ppmi_job *job, ppmi_photon_pass *photons,
+/* Half of a pass's photons, if they are not too few to learn from. */
+static ppmi_photon_walk round_walk(const ppmi_job *job, const ppmi_photon_pass *photons)
+{
+    const uint64_t least = 1 << 14, half = photons->per_pass / 2;
+    const uint64_t number = PILOTS_OF_ROUNDS + photons->aim.rounds;
+    return pilot_walk(job, photons, number, half > least ? half : least);
+}
+
+bool ppmi_photon_pass_wants_round(const ppmi_job *job, const ppmi_photon_pass *photons)
+{
+    return job->options->aim != PPM_AIM_EVEN && !photons->aim.is_learnt;
+}
+
+/* Traces a pilot's photons; *out_cost: rays and photons kept of each one emitted. */
+static ppm_status run_pilot(const ppmi_job *job, ppmi_photon_pass *photons,
+                            const ppmi_photon_walk *walk, ppm_render_stats *stats, double *out_cost)
+{
+    const uint64_t rays = stats->rays;
+    const ppm_status status = run(job, photons, walk, 1.0f, stats);
+    const uint64_t kept = ppmi_photon_map_count(&photons->map);
+    *out_cost = (double)(stats->rays - rays + kept) / (double)walk->count;
+    return status;
+}
+
+static ppm_status measure_even(const ppmi_job *job, ppmi_photon_pass *photons,
+                               ppm_render_stats *stats)
+{
+    const uint64_t share = 8;
+    const uint64_t count = photons->per_pass / share + 1;
+    const ppmi_photon_walk walk = pilot_walk(job, photons, PILOT_OF_EVEN, count);
+    return run_pilot(job, photons, &walk, stats, &photons->aim.even_cost);
+}
+
+ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *photons,
                                         ppm_render_stats *stats)
 {
-    const ppm_status status = ppmi_photon_pass_run(job, photons, pilot_pass(job, 0), 1.0f, stats);
+    ppm_status status = PPM_STATUS_OK;
+    if (!photons->aim.aim) {
+        if (job->photons_are_free) status = measure_even(job, photons, stats);
+        if (status == PPM_STATUS_OK) {
+            status = ppmi_photon_aim_begin(job, &photons->aim, &stats->rays);
+        }
+    }
+    if (status != PPM_STATUS_OK) return status;
+    const ppmi_photon_walk walk = round_walk(job, photons);
+    status = run_pilot(job, photons, &walk, stats, &photons->aim.aimed_cost);
     if (status != PPM_STATUS_OK) return status;
     return ppmi_photon_map_begin_marks(job->context, &photons->map);
 }
 
-void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
+/* A point's radius in a round: that which it would be given to begin with. */
+static float round_radius(const ppmi_job *job, const ppmi_photon_pass *photons,
                           const ppmi_visible_point *point)
 {
     float scale = ppmi_photon_pass_first_scale(job);
     if (ppmi_photon_pass_wants_radii(job)) ppmi_photon_pass_grow(job, photons, point, &scale);
-    const float radius = scale * ppmi_photon_pass_unit(job, photons, point, scale);
-    ppmi_photon_map_mark(&photons->map, job->world.albedo, point, radius);
+    return scale * ppmi_photon_pass_unit(job, photons, point, scale);
 }
 
-ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons)
+void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
+                          const ppmi_visible_point *points, size_t count, ppmi_vec3 light)
 {
-    const double most = 3.0; /* dim places gain less than the mean, and must not starve */
-    const ppmi_photon_walk walk = walk_of(job, photons, pilot_pass(job, 0));
-    double gain;
-    const ppm_status status =
-        ppmi_photon_map_learn(job->context, &photons->map, &walk, photons->guide, &gain);
-    if (status != PPM_STATUS_OK) return status;
-    photons->has_guide = gain > 0.0;
+    enum { MOST = 32 };
+    float radii[MOST], scales[MOST];
+    if (count > MOST) count = MOST;
+    float all = vec3_mean(light);
+    for (size_t i = 0; i < count; i++) {
+        radii[i] = round_radius(job, photons, &points[i]);
+        scales[i] = 1.0f / ((float)photons->in_map *
+                            ppmi_extent_of(radii[i], ppmi_dimension_of(&points[i])));
+        const ppmi_gathered gathered =
+            ppmi_photon_map_gather(&photons->map, job->world.albedo, &points[i], radii[i]);
+        all += vec3_mean(vec3_mul(gathered.flux, points[i].throughput)) * scales[i];
+    }
+    if (!(all > 0.0f) || !isfinite(all)) return;
+    for (size_t i = 0; i < count; i++) {
+        ppmi_photon_map_mark(&photons->map, job->world.albedo, &points[i], radii[i],
+                             scales[i] / all);
+    }
+}
+
+ppm_status ppmi_photon_pass_end_round(const ppmi_job *job, ppmi_photon_pass *photons)
+{
+    const double most = 3.0;
+    const ppmi_photon_walk walk = round_walk(job, photons);
+    const ppm_status status = ppmi_photon_aim_learn(job, &photons->aim, &photons->map, &walk);
+    if (status != PPM_STATUS_OK || !photons->aim.is_learnt) return status;
     const bool is_sppm = job->options->integrator == PPM_INTEGRATOR_SPPM;
+    const double gain = fmin(photons->aim.aimed_cost / photons->aim.even_cost, most);
     if (is_sppm && job->photons_are_free && gain > 1.0) {
-        photons->per_pass = (uint64_t)((double)photons->per_pass / fmin(gain, most));
+        photons->per_pass = (uint64_t)((double)photons->per_pass / gain);
     }
     return PPM_STATUS_OK;
 }
@@ -158,7 +230,7 @@ bool ppmi_photon_pass_wants_radii(const ppmi_job *job)
 ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *photons,
                                         ppm_render_stats *stats)
 {
-    return ppmi_photon_pass_run(job, photons, pilot_pass(job, 1), 1.0f, stats);
+    return ppmi_photon_pass_run(job, photons, pilot_pass(job, PILOT_OF_RADII), 1.0f, stats);
 }
 
 void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
@@ -177,6 +249,14 @@ void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
         }
         *scale *= step;
     }
+}
+
+void ppmi_photon_pass_add_use(const ppmi_photon_pass *photons, ppm_render_stats *stats)
+{
+    if (!photons->aim.is_learnt) return;
+    stats->photons_used_share = photons->aim.used_share;
+    stats->light_uses = photons->aim.uses;
+    stats->light_use_count = photons->aim.use_count;
 }
 
 /* ---- layers ---------------------------------------------------------------------------------- */

@@ -6,13 +6,14 @@
 #include "photon/map.h"
 #include "photon/statistics.h"
 #include "render/light_film.h"
+#include "render/photon_aim.h"
 
 /* Zero it to begin with. */
 typedef struct ppmi_photon_pass {
     ppmi_photon_map map; /* of the latest pass */
-    ppmi_photon_guide *guide;
-    bool has_guide;     /* it has been learnt */
+    ppmi_photon_aim aim;
     uint64_t per_pass;  /* photons to emit */
+    uint64_t in_map;    /* photons that were emitted for it */
     float time;         /* of the eye paths that they are for, where passes have one time */
     float first_radius; /* typical small one, metres */
     float largest_radius;
@@ -29,18 +30,23 @@ ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, 
 
 /* ---- the pilot: photons that are not used for the picture ------------------------------------ */
 
-/* Passes with the pilot's photons. The first one learns where photons are worth sending, by those
- * that ppmi_photon_pass_see marks; the second one, aimed as the passes to come, chooses first
- * radii, by ppmi_photon_pass_grow. Either is left out where the options make it needless. */
-bool ppmi_photon_pass_wants_guide(const ppmi_job *job, const ppmi_photon_pass *photons);
-ppm_status ppmi_photon_pass_begin_guide(const ppmi_job *job, ppmi_photon_pass *photons,
+/* Where photons are aimed this is learnt in rounds: photons are traced, every pixel's points see
+ * them, and the round ends. */
+bool ppmi_photon_pass_wants_round(const ppmi_job *job, const ppmi_photon_pass *photons);
+ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *photons,
                                         ppm_render_stats *stats);
+/* count points of one pixel, which has light besides. Any thread. */
 void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
-                          const ppmi_visible_point *point);
-/* With a guide fewer photons do as much: where nobody said how many, sppm goes on with as many as
- * keep the number that was kept without. */
-ppm_status ppmi_photon_pass_end_guide(const ppmi_job *job, ppmi_photon_pass *photons);
+                          const ppmi_visible_point *points, size_t count, ppmi_vec3 light);
+/* Aimed photons meet more: where nobody said how many, sppm goes on with as many as take the time
+ * that even ones take. */
+ppm_status ppmi_photon_pass_end_round(const ppmi_job *job, ppmi_photon_pass *photons);
 
+/* What has been learnt goes into stats. */
+void ppmi_photon_pass_add_use(const ppmi_photon_pass *photons, ppm_render_stats *stats);
+
+/* Then photons that are aimed as those of the passes to come choose first radii, by
+ * ppmi_photon_pass_grow; where the options do not give one. */
 bool ppmi_photon_pass_wants_radii(const ppmi_job *job);
 ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *photons,
                                         ppm_render_stats *stats);

@@ -175,8 +175,14 @@ typedef void (*tile_step)(const ppmi_job *job, ppm_state *state, uint32_t index)
 
 static void mark_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
 {
-    for (size_t i = 0; i < state->tiles[index].count; i++)
-        ppmi_photon_pass_see(job, &state->photons, &state->tiles[index].points[i]);
+    const ppmi_visible_points *points = &state->tiles[index];
+    for (size_t i = 0, end; i < points->count; i = end) {
+        const uint32_t owner = points->points[i].owner;
+        for (end = i + 1; end < points->count && points->points[end].owner == owner;)
+            end++;
+        ppmi_photon_pass_see(job, &state->photons, points->points + i, end - i,
+                             state->direct[owner]);
+    }
 }
 
 static void grow_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
@@ -200,10 +206,10 @@ static ppm_status for_tiles(const ppmi_job *job, ppm_state *state, tile_step ste
 static ppm_status eye_pass(const ppmi_job *job, ppm_state *state, ppm_render_stats *stats)
 {
     ppm_status status = trace_tiles(job, state, stats);
-    if (status == PPM_STATUS_OK && ppmi_photon_pass_wants_guide(job, &state->photons)) {
-        status = ppmi_photon_pass_begin_guide(job, &state->photons, stats);
+    while (status == PPM_STATUS_OK && ppmi_photon_pass_wants_round(job, &state->photons)) {
+        status = ppmi_photon_pass_begin_round(job, &state->photons, stats);
         if (status == PPM_STATUS_OK) status = for_tiles(job, state, mark_tile);
-        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_guide(job, &state->photons);
+        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_round(job, &state->photons);
     }
     if (status == PPM_STATUS_OK && ppmi_photon_pass_wants_radii(job)) {
         status = ppmi_photon_pass_begin_radii(job, &state->photons, stats);
@@ -361,6 +367,7 @@ static ppm_status ppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     state->epoch_emitted += per_pass;
     added.photons_emitted += state->photons.per_pass;
     added.photons_stored += ppmi_photon_map_count(&state->photons.map);
+    ppmi_photon_pass_add_use(&state->photons, &added);
     *stats = added;
     return PPM_STATUS_OK;
 }

@@ -421,6 +421,7 @@ static ppm_status start(ppm_render *render)
     render->integrator = integrator_of(render->options.integrator);
     render->stats.size = sizeof render->stats;
     render->stats.threads = render->options.threads;
+    render->stats.photons_used_share = -1.0;
     render->stats.seconds_build = omp_get_wtime() - begin;
     if (ppmi_layers_have(&render->options, PPM_LAYER_LIGHT_GROUP, PPM_LAYER_GROUP_CAUSTICS)) {
         status = ppmi_light_groups_create(render->context, render->scene,

@@ -178,8 +178,8 @@ static void mark_photons(const ppmi_job *job, sppm_state *state, size_t pixel, c
                          uint32_t slot)
 {
     (void)pixel;
-    for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++)
-        ppmi_photon_pass_see(job, &state->photons, &eye->points[i]);
+    const uint32_t first = eye->first_point[slot], count = eye->first_point[slot + 1] - first;
+    ppmi_photon_pass_see(job, &state->photons, eye->points + first, count, eye->radiance[slot]);
 }
 
 /* Narrow lobes want few photons: they say what radius is wanted only where nothing else does. */
@@ -247,10 +247,10 @@ static ppm_status pilot_passes(const ppmi_job *job, sppm_state *state, ppm_rende
 {
     ppm_status status = PPM_STATUS_OK;
     state->photons.time = ppmi_time_of_pass(job, PPMI_PILOT_PASS);
-    if (ppmi_photon_pass_wants_guide(job, &state->photons)) {
-        status = ppmi_photon_pass_begin_guide(job, &state->photons, stats);
+    while (status == PPM_STATUS_OK && ppmi_photon_pass_wants_round(job, &state->photons)) {
+        status = ppmi_photon_pass_begin_round(job, &state->photons, stats);
         if (status == PPM_STATUS_OK) status = pilot_tiles(job, state, mark_photons);
-        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_guide(job, &state->photons);
+        if (status == PPM_STATUS_OK) status = ppmi_photon_pass_end_round(job, &state->photons);
     }
     if (status != PPM_STATUS_OK || !ppmi_photon_pass_wants_radii(job)) return status;
     set_first_scales(job, &state->now); /* a pilot that failed may have grown some */
@@ -415,6 +415,7 @@ static ppm_status sppm_pass(const ppmi_job *job, void *opaque, uint64_t pass,
     added.seconds_gather += totals.seconds_gather / threads;
     added.photons_emitted += state->photons.per_pass;
     added.photons_stored += ppmi_photon_map_count(&state->photons.map);
+    ppmi_photon_pass_add_use(&state->photons, &added);
     added.eye_paths += ppmi_film_pixel_count(&job->film);
     *stats = added;
     return PPM_STATUS_OK;

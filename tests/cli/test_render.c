@@ -188,6 +188,13 @@ static void statistics_have_every_field(void **state)
     for (size_t i = 0; i < sizeof render_fields / sizeof render_fields[0]; i++) {
         assert_true(number(render, render_fields[i]) >= 0.0);
     }
+    const double used = number(render, "photons_used_share");
+    assert_true(used > 0.0 && used <= 1.0);
+    const json_t *const lights = json_object_get(render, "photons_by_light");
+    double sent = 0.0;
+    for (size_t i = 0; i < json_array_size(lights); i++)
+        sent += number(json_array_get(lights, i), "sent_share");
+    assert_true(sent > 0.999 && sent < 1.001);
     json_decref(root);
 }
 
