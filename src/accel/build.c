@@ -312,14 +312,40 @@ static bool has_round(const ppm_scene *scene)
     return false;
 }
 
+/* Whether ppmi_accel_nearby shows something of it. */
+static bool is_solid(const ppm_scene *scene, const ppmi_instance *instance)
+{
+    const ppmi_mesh *mesh = &scene->meshes[instance->mesh];
+    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
+        const ppmi_primitive *primitive = &mesh->primitives[i];
+        if (primitive->kind == PPM_PRIMITIVE_TRIANGLES &&
+            !ppmi_accel_is_clear(&scene->materials[primitive->material])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static RTCScene build_top(const accel_cache *cache, const ppm_scene *scene, bool of_solids)
+{
+    const RTCScene top = new_scene(cache->device);
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const ppmi_instance *instance = &scene->instances[i];
+        if (!of_solids || is_solid(scene, instance)) attach_instance(cache, top, instance, i);
+    }
+    rtcCommitScene(top);
+    return top;
+}
+
 static ppm_status build(accel_cache *cache, const ppm_scene *scene, ppmi_accel *accel)
 {
     const ppm_status status = build_meshes(cache, scene);
     if (status != PPM_STATUS_OK) return status;
-    accel->top = new_scene(cache->device);
+    bool all_solid = true;
     for (uint32_t i = 0; i < scene->instance_count; i++)
-        attach_instance(cache, accel->top, &scene->instances[i], i);
-    rtcCommitScene(accel->top);
+        all_solid = all_solid && is_solid(scene, &scene->instances[i]);
+    accel->top = build_top(cache, scene, false);
+    accel->solid = all_solid ? accel->top : build_top(cache, scene, true);
     return check_device(cache, "building the acceleration structure of the instances");
 }
 
@@ -345,6 +371,7 @@ ppm_status ppmi_accel_create(ppm_context *context, ppm_scene *scene, ppmi_accel 
 void ppmi_accel_destroy(ppmi_accel *accel)
 {
     if (!accel) return;
+    if (accel->solid && accel->solid != accel->top) rtcReleaseScene(accel->solid);
     if (accel->top) rtcReleaseScene(accel->top);
     ppmi_free(accel->context, accel);
 }

@@ -42,14 +42,6 @@ static void show_triangle(near_query *query, const ppmi_primitive *primitive,
     show(query, triangle);
 }
 
-/* Glass through and through: no photon stays on it. */
-static bool is_clear(const ppmi_material *material)
-{
-    const ppm_material_desc *desc = &material->desc;
-    return desc->transmission > 0.99f && desc->transmission_texture.image == 0 &&
-           desc->metallic == 0.0f && desc->diffuse_transmission == 0.0f;
-}
-
 static bool on_primitive(struct RTCPointQueryFunctionArguments *arguments)
 {
     near_query *query = arguments->userPtr;
@@ -62,7 +54,7 @@ static bool on_primitive(struct RTCPointQueryFunctionArguments *arguments)
     const ppmi_mesh *mesh = &scene->meshes[scene->instances[triangle.instance].mesh];
     const ppmi_primitive *primitive = &mesh->primitives[triangle.primitive];
     if (primitive->kind == PPM_PRIMITIVE_TRIANGLES &&
-        !is_clear(&scene->materials[primitive->material])) {
+        !ppmi_accel_is_clear(&scene->materials[primitive->material])) {
         show_triangle(query, primitive, &triangle);
     }
     if (query->is_done) arguments->query->radius = 0.0f;
@@ -77,5 +69,5 @@ void ppmi_accel_nearby(const ppmi_accel *accel, ppmi_vec3 p, float radius, float
     struct RTCPointQuery ball = {.x = p.x, .y = p.y, .z = p.z, .time = time, .radius = radius};
     struct RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(accel->top, &ball, &context, on_primitive, &query);
+    rtcPointQuery(accel->solid, &ball, &context, on_primitive, &query);
 }

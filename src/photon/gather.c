@@ -100,6 +100,30 @@ static ppmi_vec3 place_of(const ppmi_photon_grid *grid, uint32_t index)
     return vec3(grid->x[index], grid->y[index], grid->z[index]);
 }
 
+bool ppmi_gather_has_candidates(const ppmi_photon_grid *grid, const ppmi_visible_point *point,
+                                float radius)
+{
+    const ppmi_bsdf *bsdf = &point->bsdf;
+    const float thickness = radius * PPMI_REGION_BELOW;
+    ppmi_photon_run runs[PPMI_GRID_MAX_RUNS];
+    const uint32_t run_count = ppmi_photon_grid_lookup(grid, point->position, radius * disk_reach,
+                                                       bsdf->ng, thickness, runs);
+    for (uint32_t r = 0; r < run_count; r++) {
+        for (uint32_t begin = runs[r].begin; begin < runs[r].end; begin += CANDIDATES) {
+            const uint32_t left = runs[r].end - begin;
+            uint32_t indices[CANDIDATES];
+            float distances2[CANDIDATES];
+            const uint32_t selected =
+                select_block(grid, begin, left < CANDIDATES ? left : CANDIDATES, point->position,
+                             bsdf->ng, radius * radius, thickness, 1.0f, indices, distances2);
+            for (uint32_t k = 0; k < selected; k++) {
+                if (is_on_surface(bsdf, grid->payloads[indices[k]].ng)) return true;
+            }
+        }
+    }
+    return false;
+}
+
 static ppmi_vec3 share_of_255(const uint8_t share[3])
 {
     return vec3((float)share[0] / 255.0f, (float)share[1] / 255.0f, (float)share[2] / 255.0f);

@@ -26,8 +26,13 @@ ppmi_gathered ppmi_gather(const ppmi_photon_grid *grid, const ppmi_albedo_table 
                           const ppmi_visible_point *point, float radius,
                           const ppmi_gather_region *region);
 
-/* The same, with layers of light: what each photon brings, times factor, goes into sink by its tag;
- * photons is the list that the grid was built from. */
+/* Whether the whole disk around a surface point has photons on surfaces that face the right way: if
+ * not, nothing is gathered there. */
+bool ppmi_gather_has_candidates(const ppmi_photon_grid *grid, const ppmi_visible_point *point,
+                                float radius);
+
+/* The same as ppmi_gather, with layers of light: what each photon brings, times factor, goes into
+ * sink by its tag; photons is the list that the grid was built from. */
 typedef struct ppmi_gather_layers {
     const ppmi_light_sink *sink;
     const ppmi_photon *photons;

@@ -50,37 +50,47 @@ static int kind_of(const ppmi_visible_point *point)
     return ppmi_bsdf_is_phase(&point->bsdf) ? PPMI_PHOTONS_VOLUME : PPMI_PHOTONS_SURFACE;
 }
 
-/* Narrow lobes mostly find nothing: no region is looked for then. */
+ppmi_gathered ppmi_photon_map_gather_whole(const ppmi_photon_map *map,
+                                           const ppmi_albedo_table *albedo,
+                                           const ppmi_visible_point *point, float radius)
+{
+    return ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius, NULL);
+}
+
+/* Whether nothing is gathered there, whatever the region: narrow lobes mostly find nothing. */
 static bool is_vain(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
                     const ppmi_visible_point *point, float radius)
 {
+    if (!ppmi_gather_has_candidates(&map->grids[kind_of(point)], point, radius)) return true;
     return point->merge_area_m2 > 0.0f &&
-           ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius, NULL).count == 0.0f;
+           ppmi_photon_map_gather_whole(map, albedo, point, radius).count == 0.0f;
 }
 
-/* NULL in a medium. */
+/* NULL in a medium, and where there is nothing to gather. */
 static const ppmi_gather_region *find_region(const ppmi_photon_map *map,
                                              const ppmi_albedo_table *albedo,
                                              const ppmi_visible_point *point, float radius,
-                                             ppmi_gather_region *region)
+                                             ppmi_plain_disk *known, ppmi_gather_region *region)
 {
     if (!map->accel || kind_of(point) == PPMI_PHOTONS_VOLUME) return NULL;
     if (is_vain(map, albedo, point, radius)) return NULL;
-    ppmi_region_find(map->accel, point, radius, map->time, region);
+    ppmi_region_find(map->accel, point, radius, map->time, known, region);
     return region;
 }
 
 ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                                     const ppmi_visible_point *point, float radius)
+                                     const ppmi_visible_point *point, float radius,
+                                     ppmi_plain_disk *known)
 {
     ppmi_gather_region region;
     return ppmi_gather(&map->grids[kind_of(point)], albedo, point, radius,
-                       find_region(map, albedo, point, radius, &region));
+                       find_region(map, albedo, point, radius, known, &region));
 }
 
 ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
                                                  const ppmi_albedo_table *albedo,
                                                  const ppmi_visible_point *point, float radius,
+                                                 ppmi_plain_disk *known,
                                                  const ppmi_gather_layers *layers)
 {
     const int kind = kind_of(point);
@@ -88,17 +98,19 @@ ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
     ppmi_gather_layers of_kind = *layers;
     of_kind.photons = map->photons[kind].photons;
     return ppmi_gather_with_layers(&map->grids[kind], albedo, point, radius,
-                                   find_region(map, albedo, point, radius, &region), &of_kind);
+                                   find_region(map, albedo, point, radius, known, &region),
+                                   &of_kind);
 }
 
 void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius, float scale)
+                          const ppmi_visible_point *point, float radius, ppmi_plain_disk *known,
+                          float scale)
 {
     const int kind = kind_of(point);
     ppmi_gather_region region;
     const ppmi_gather_marks marks = {map->marks[kind], scale * PPMI_PHOTON_MARK};
     ppmi_gather_mark(&map->grids[kind], albedo, point, radius,
-                     find_region(map, albedo, point, radius, &region), &marks);
+                     find_region(map, albedo, point, radius, known, &region), &marks);
 }
 
 /* ---- marks ----------------------------------------------------------------------------------- */

@@ -32,19 +32,28 @@ uint64_t ppmi_photon_map_count(const ppmi_photon_map *map);
 ppm_status ppmi_photon_map_begin_marks(ppm_context *context, ppmi_photon_map *map);
 void ppmi_photon_map_end_marks(ppm_context *context, ppmi_photon_map *map);
 void ppmi_photon_map_mark(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                          const ppmi_visible_point *point, float radius, float scale);
+                          const ppmi_visible_point *point, float radius, ppmi_plain_disk *known,
+                          float scale);
 
 /* Adds up the marks of each path: out_sums, one for each of count paths, zero to begin with. */
 void ppmi_photon_map_sum_marks(const ppmi_photon_map *map, uint64_t *out_sums);
 
-/* Gathers at a visible point, of either kind, what lies in the region of gathering around it. */
+/* Gathers at a visible point, of either kind, what lies in the region of gathering around it.
+ * known: as for ppmi_region_find. */
 ppmi_gathered ppmi_photon_map_gather(const ppmi_photon_map *map, const ppmi_albedo_table *albedo,
-                                     const ppmi_visible_point *point, float radius);
+                                     const ppmi_visible_point *point, float radius,
+                                     ppmi_plain_disk *known);
 
-/* The same, with layers of light; layers->photons is not used. */
+/* What the whole disk or ball around it would bring: no fewer photons, and cheaper to tell. */
+ppmi_gathered ppmi_photon_map_gather_whole(const ppmi_photon_map *map,
+                                           const ppmi_albedo_table *albedo,
+                                           const ppmi_visible_point *point, float radius);
+
+/* The same as ppmi_photon_map_gather, with layers of light; layers->photons is not used. */
 ppmi_gathered ppmi_photon_map_gather_with_layers(const ppmi_photon_map *map,
                                                  const ppmi_albedo_table *albedo,
                                                  const ppmi_visible_point *point, float radius,
+                                                 ppmi_plain_disk *known,
                                                  const ppmi_gather_layers *layers);
 
 #endif

@@ -237,10 +237,24 @@ static bool is_beside(const ppmi_region_triangle *t)
            distance2_of(t, 2, 0) >= 1.0;
 }
 
+/* A quick test, by single precision: of many that a query shows nothing else is asked. */
+static bool is_far_off_plane(const ppmi_gather_region *region, const ppmi_near_triangle *triangle)
+{
+    const float slack = 0.01f * region->radius;
+    const float above = PPMI_REGION_ABOVE * region->radius + slack;
+    const float below = -PPMI_REGION_BELOW * region->radius - slack;
+    float z[3];
+    for (int i = 0; i < 3; i++)
+        z[i] = vec3_dot(vec3_sub(triangle->corners[i], region->center), region->n);
+    return (z[0] > above && z[1] > above && z[2] > above) ||
+           (z[0] < below && z[1] < below && z[2] < below);
+}
+
 static bool on_triangle(void *user, const ppmi_near_triangle *triangle)
 {
     region_search *search = user;
     ppmi_gather_region *region = search->region;
+    if (is_far_off_plane(region, triangle)) return true;
     ppmi_region_triangle one_more;
     const bool is_full = region->count == PPMI_REGION_TRIANGLES;
     ppmi_region_triangle *found = is_full ? &one_more : &region->triangles[region->count];
@@ -493,13 +507,13 @@ static bool is_shared(const ppmi_gather_region *region, uint32_t owner, int i, i
 
 /* Whether all that was found is one plane under the whole disk: no border passes through it. Told
  * for few triangles, without a measure. */
-static bool is_plain(const ppmi_gather_region *region)
+static bool is_plain(const ppmi_gather_region *region, double most_height)
 {
     enum { FEW = 12 };
     if (region->count > FEW) return false;
     for (uint32_t i = 0; i < region->count; i++) {
         const ppmi_region_triangle *t = &region->triangles[i];
-        if (z_min(t) < -flatness || z_max(t) > flatness) return false;
+        if (z_min(t) < -most_height || z_max(t) > most_height) return false;
     }
     for (uint32_t i = 0; i < region->count; i++) {
         for (int a = 0; a < 3; a++) {
@@ -510,6 +524,41 @@ static bool is_plain(const ppmi_gather_region *region)
         }
     }
     return true;
+}
+
+/* ---- plain disks ----------------------------------------------------------------------------- */
+
+/* A disk in a plain one may be that much smaller: heights are held against flatness of the small
+ * one, whose search would have found it plain too. */
+static const float least_of_plain = 0.125f;
+
+static bool lies_in(const ppmi_plain_disk *known, const ppmi_visible_point *point, float radius)
+{
+    const ppmi_vec3 n = known->normal, ng = point->bsdf.ng;
+    if (n.x != ng.x || n.y != ng.y || n.z != ng.z) return false;
+    const ppmi_vec3 way = vec3_sub(point->position, known->center);
+    return vec3_length(way) + disk_reach * radius <= known->radius &&
+           radius >= least_of_plain * known->radius &&
+           fabsf(vec3_dot(way, n)) <= 0.5f * (float)flatness * radius;
+}
+
+/* Looks for a plain disk with room for the points of later passes, whose disks are smaller. Uses
+ * region for its search. */
+static void learn_plain(const ppmi_accel *accel, const ppmi_visible_point *point, float radius,
+                        float time, ppmi_plain_disk *known, ppmi_gather_region *region)
+{
+    const float wider = 1.5f * radius, try_again = 0.7f;
+    if (known->failed > 0.0f && wider > try_again * known->failed) return;
+    start(region, point, wider);
+    region_search search = {.region = region, .scale = 1.0 / (double)wider};
+    ppmi_accel_nearby(accel, point->position, disk_reach * wider, time, on_triangle, &search);
+    if (search.is_full || region->count == 0 ||
+        !is_plain(region, 0.25 * (double)least_of_plain * flatness)) {
+        known->failed = wider;
+        return;
+    }
+    *known =
+        (ppmi_plain_disk){.center = point->position, .normal = point->bsdf.ng, .radius = wider};
 }
 
 /* Walls alone, where there are too many triangles for a measure. */
@@ -534,15 +583,24 @@ static void find_walls(const ppmi_accel *accel, const ppmi_visible_point *point,
 }
 
 void ppmi_region_find(const ppmi_accel *accel, const ppmi_visible_point *point, float radius,
-                      float time, ppmi_gather_region *region)
+                      float time, ppmi_plain_disk *known, ppmi_gather_region *region)
 {
     enum { HALVINGS = 2 };
+    if (known && lies_in(known, point, radius)) {
+        start(region, point, radius);
+        return;
+    }
     for (int i = 0; i <= HALVINGS; i++, radius *= 0.5f) {
         start(region, point, radius);
         region_search search = {.region = region, .scale = 1.0 / (double)radius};
         ppmi_accel_nearby(accel, point->position, disk_reach * radius, time, on_triangle, &search);
         if (search.is_full) continue;
-        if (region->count == 0 || is_plain(region)) return;
+        if (region->count == 0) return;
+        if (is_plain(region, flatness)) {
+            if (known && i == 0) learn_plain(accel, point, radius, time, known, region);
+            start(region, point, radius);
+            return;
+        }
         sort(region);
         const bool is_flat = classify(region);
         if (region->is_known) {

@@ -45,9 +45,18 @@ typedef struct ppmi_gather_region {
     ppmi_region_triangle triangles[PPMI_REGION_TRIANGLES];
 } ppmi_gather_region;
 
-/* The region around a point on a surface, at a time within the shutter. */
+/* A disk in which one plane lies and nothing else is near: disks within it need no search. Zero it
+ * to begin with. It serves one scene, in which nothing moves. */
+typedef struct ppmi_plain_disk {
+    ppmi_vec3 center, normal;
+    float radius; /* 0: none is known */
+    float failed; /* radius of one that was not plain; 0: none yet */
+} ppmi_plain_disk;
+
+/* The region around a point on a surface, at a time within the shutter. known: what was learnt at
+ * points close by before, or NULL; it changes nothing but the time this takes. */
 void ppmi_region_find(const ppmi_accel *accel, const ppmi_visible_point *point, float radius,
-                      float time, ppmi_gather_region *region);
+                      float time, ppmi_plain_disk *known, ppmi_gather_region *region);
 
 /* Whether a place that is in the disk and near the tangent plane is in the region. */
 bool ppmi_region_holds(const ppmi_gather_region *region, ppmi_vec3 place);

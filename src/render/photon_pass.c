@@ -177,34 +177,56 @@ ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *p
     return ppmi_photon_map_begin_marks(job->context, &photons->map);
 }
 
+/* Nothing stays known where things move from pass to pass. */
+static ppmi_plain_disk *known_of(const ppmi_job *job, ppmi_plain_disk *known)
+{
+    return job->pass_has_one_time ? NULL : known;
+}
+
 /* A point's radius in a round: that which it would be given to begin with. */
 static float round_radius(const ppmi_job *job, const ppmi_photon_pass *photons,
-                          const ppmi_visible_point *point)
+                          const ppmi_visible_point *point, ppmi_plain_disk *known)
 {
     float scale = ppmi_photon_pass_first_scale(job);
-    if (ppmi_photon_pass_wants_radii(job)) ppmi_photon_pass_grow(job, photons, point, &scale);
+    if (ppmi_photon_pass_wants_radii(job)) {
+        ppmi_photon_pass_grow(job, photons, point, known, &scale);
+    }
     return scale * ppmi_photon_pass_unit(job, photons, point, scale);
 }
 
+/* The point that the pixel's plain disk is of; count: none. */
+static size_t first_surface(const ppmi_visible_point *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (ppmi_photon_pass_keeps_plain(&points[i])) return i;
+    }
+    return count;
+}
+
 void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
-                          const ppmi_visible_point *points, size_t count, ppmi_vec3 light)
+                          const ppmi_visible_point *points, size_t count, ppmi_plain_disk *plain,
+                          ppmi_vec3 light)
 {
     enum { MOST = 32 };
     float radii[MOST], scales[MOST];
     if (count > MOST) count = MOST;
+    const size_t first = first_surface(points, count);
     float all = vec3_mean(light);
     for (size_t i = 0; i < count; i++) {
-        radii[i] = round_radius(job, photons, &points[i]);
+        ppmi_plain_disk *known = i == first ? plain : NULL;
+        radii[i] = round_radius(job, photons, &points[i], known);
         scales[i] = 1.0f / ((float)photons->in_map *
                             ppmi_extent_of(radii[i], ppmi_dimension_of(&points[i])));
-        const ppmi_gathered gathered =
-            ppmi_photon_map_gather(&photons->map, job->world.albedo, &points[i], radii[i]);
+        const ppmi_gathered gathered = ppmi_photon_map_gather(
+            &photons->map, job->world.albedo, &points[i], radii[i], known_of(job, known));
         all += vec3_mean(vec3_mul(gathered.flux, points[i].throughput)) * scales[i];
+        if (!(gathered.count > 0.0f)) scales[i] = 0.0f;
     }
     if (!(all > 0.0f) || !isfinite(all)) return;
     for (size_t i = 0; i < count; i++) {
+        if (!(scales[i] > 0.0f)) continue;
         ppmi_photon_map_mark(&photons->map, job->world.albedo, &points[i], radii[i],
-                             scales[i] / all);
+                             known_of(job, i == first ? plain : NULL), scales[i] / all);
     }
 }
 
@@ -233,22 +255,40 @@ ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *p
     return ppmi_photon_pass_run(job, photons, pilot_pass(job, PILOT_OF_RADII), 1.0f, stats);
 }
 
-void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
-                           const ppmi_visible_point *point, float *scale)
+/* Doubles the disk until it has enough photons. In a hurry regions of gathering are left alone
+ * until the whole disk has enough, or is the last; false if it is crowded then: a smaller one may
+ * have been. */
+static bool grow(const ppmi_job *job, const ppmi_photon_pass *photons,
+                 const ppmi_visible_point *point, ppmi_plain_disk *known, bool in_hurry,
+                 float *scale)
 {
     const ppmi_dimension dimension = ppmi_dimension_of(point);
-    const float step = ppmi_root_of(2.0f, dimension);
+    const float step = ppmi_root_of(2.0f, dimension), enough = (float)PILOT_PHOTONS;
     const int doublings = dimension == PPMI_DISK ? PILOT_DOUBLINGS_DISK : PILOT_DOUBLINGS_BALL;
-    for (int i = 0; i < doublings; i++) {
+    const ppmi_photon_map *map = &photons->map;
+    for (int i = 0; i < doublings; i++, *scale *= step) {
         const float radius = *scale * ppmi_photon_pass_unit(job, photons, point, *scale);
-        const ppmi_gathered gathered =
-            ppmi_photon_map_gather(&photons->map, job->world.albedo, point, radius);
-        if (gathered.count >= (float)PILOT_PHOTONS || gathered.is_crowded ||
-            1.5f * radius > photons->largest_radius) {
-            return;
+        const bool is_largest = 1.5f * radius > photons->largest_radius;
+        if (in_hurry && !is_largest && i + 1 < doublings &&
+            ppmi_photon_map_gather_whole(map, job->world.albedo, point, radius).count < enough) {
+            continue;
         }
-        *scale *= step;
+        const ppmi_gathered gathered =
+            ppmi_photon_map_gather(map, job->world.albedo, point, radius, known);
+        if (gathered.is_crowded) return !in_hurry || i == 0;
+        if (gathered.count >= enough || is_largest) return true;
     }
+    return true;
+}
+
+void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
+                           const ppmi_visible_point *point, ppmi_plain_disk *known, float *scale)
+{
+    const float first = *scale;
+    known = known_of(job, known);
+    if (grow(job, photons, point, known, true, scale)) return;
+    *scale = first;
+    grow(job, photons, point, known, false, scale);
 }
 
 void ppmi_photon_pass_add_use(const ppmi_photon_pass *photons, ppm_render_stats *stats)
@@ -263,7 +303,7 @@ void ppmi_photon_pass_add_use(const ppmi_photon_pass *photons, ppm_render_stats 
 
 ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_photon_pass *photons,
                                              const ppmi_visible_point *point, float radius,
-                                             ppmi_pixel_layers *layers)
+                                             ppmi_plain_disk *known, ppmi_pixel_layers *layers)
 {
     const ppmi_dimension dimension = ppmi_dimension_of(point);
     const double emitted = (double)photons->per_pass;
@@ -273,7 +313,7 @@ ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_pho
     const ppmi_gather_layers gather = {.sink = &sink,
                                        .factor = vec3_scale(point->throughput, scale)};
     ppmi_gathered gathered = ppmi_photon_map_gather_with_layers(&photons->map, job->world.albedo,
-                                                                point, radius, &gather);
+                                                                point, radius, known, &gather);
     gathered.flux = vec3_mul(gathered.flux, point->throughput);
     layers->gathered_light = vec3_mad(layers->gathered_light, gathered.flux, scale);
     layers->radius_sum_m += radius;

@@ -37,7 +37,8 @@ ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *p
                                         ppm_render_stats *stats);
 /* count points of one pixel, which has light besides. Any thread. */
 void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
-                          const ppmi_visible_point *points, size_t count, ppmi_vec3 light);
+                          const ppmi_visible_point *points, size_t count, ppmi_plain_disk *plain,
+                          ppmi_vec3 light);
 /* Aimed photons meet more: where nobody said how many, sppm goes on with as many as take the time
  * that even ones take. */
 ppm_status ppmi_photon_pass_end_round(const ppmi_job *job, ppmi_photon_pass *photons);
@@ -54,7 +55,14 @@ ppm_status ppmi_photon_pass_begin_radii(const ppmi_job *job, ppmi_photon_pass *p
 /* Grows a first radius until the pilot's photons suffice. Choosing the radius by the photons that
  * it then gathers would bias the picture. */
 void ppmi_photon_pass_grow(const ppmi_job *job, const ppmi_photon_pass *photons,
-                           const ppmi_visible_point *point, float *scale);
+                           const ppmi_visible_point *point, ppmi_plain_disk *known, float *scale);
+
+/* What is known of the surface around is kept for the first point of a pixel of which this is true
+ * (ppmi_region_find); nothing of other points, and NULL does for it. */
+static inline bool ppmi_photon_pass_keeps_plain(const ppmi_visible_point *point)
+{
+    return ppmi_dimension_of(point) == PPMI_DISK && !(point->merge_area_m2 > 0.0f);
+}
 
 /* ---- radii ----------------------------------------------------------------------------------- */
 
@@ -89,18 +97,22 @@ const ppmi_light_pass *ppmi_pixel_layers_finish(ppmi_pixel_layers *layers);
 /* ppmi_photon_pass_gather with layers. */
 ppmi_gathered ppmi_photon_pass_gather_layers(const ppmi_job *job, const ppmi_photon_pass *photons,
                                              const ppmi_visible_point *point, float radius,
-                                             ppmi_pixel_layers *layers);
+                                             ppmi_plain_disk *known, ppmi_pixel_layers *layers);
 
-/* Photons found around a point within scale times unit; flux includes the throughput. layers may be
- * NULL. */
+/* Photons found around a point within scale times unit; flux includes the throughput. known: what
+ * is known of the surface around the pixel's or point's place (ppmi_region_find), or NULL; layers
+ * may be NULL. */
 static inline ppmi_gathered ppmi_photon_pass_gather(const ppmi_job *job,
                                                     const ppmi_photon_pass *photons,
                                                     const ppmi_visible_point *point, float scale,
-                                                    float unit, ppmi_pixel_layers *layers)
+                                                    float unit, ppmi_plain_disk *known,
+                                                    ppmi_pixel_layers *layers)
 {
-    if (layers) return ppmi_photon_pass_gather_layers(job, photons, point, scale * unit, layers);
+    const float radius = scale * unit;
+    if (job->pass_has_one_time) known = NULL; /* things move from pass to pass */
+    if (layers) return ppmi_photon_pass_gather_layers(job, photons, point, radius, known, layers);
     ppmi_gathered gathered =
-        ppmi_photon_map_gather(&photons->map, job->world.albedo, point, scale * unit);
+        ppmi_photon_map_gather(&photons->map, job->world.albedo, point, radius, known);
     gathered.flux = vec3_mul(gathered.flux, point->throughput);
     return gathered;
 }

@@ -16,6 +16,7 @@
 /* One visible point, with what it has gathered in this epoch. */
 typedef struct hit_statistics {
     ppmi_gather_statistics now, next; /* a pass reads the first and writes the second */
+    ppmi_plain_disk plain;
 } hit_statistics;
 
 typedef struct ppm_state {
@@ -181,15 +182,16 @@ static void mark_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
         for (end = i + 1; end < points->count && points->points[end].owner == owner;)
             end++;
         ppmi_photon_pass_see(job, &state->photons, points->points + i, end - i,
-                             state->direct[owner]);
+                             &state->statistics[index][i].plain, state->direct[owner]);
     }
 }
 
 static void grow_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
 {
     for (size_t i = 0; i < state->tiles[index].count; i++) {
+        hit_statistics *statistics = &state->statistics[index][i];
         ppmi_photon_pass_grow(job, &state->photons, &state->tiles[index].points[i],
-                              &state->statistics[index][i].now.scale);
+                              &statistics->plain, &statistics->now.scale);
     }
 }
 
@@ -279,8 +281,8 @@ static void gather_point(const ppmi_job *job, ppm_state *state, const ppmi_visib
     statistics->next = statistics->now;
     const float scale = statistics->now.scale;
     const float unit = ppmi_photon_pass_unit(job, &state->photons, point, scale);
-    const ppmi_gathered gathered =
-        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit, layers);
+    const ppmi_gathered gathered = ppmi_photon_pass_gather(job, &state->photons, point, scale, unit,
+                                                           &statistics->plain, layers);
     const ppmi_dimension dimension = ppmi_dimension_of(point);
     const ppmi_vec3 tau = vec3_scale(gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
     ppmi_statistics_update(&statistics->next, dimension, job->options->alpha, tau, gathered.count);

@@ -28,6 +28,7 @@ typedef struct sppm_pixels {
 
 typedef struct sppm_state {
     sppm_pixels now, next;       /* a pass reads the first and writes the second */
+    ppmi_plain_disk *plain;      /* of each pixel's first surface */
     ppmi_visible_points *points; /* one list a thread, for a tile each */
     ppmi_photon_pass photons;
     ppmi_light_film layers;
@@ -85,6 +86,7 @@ static void sppm_destroy(const ppmi_job *job, void *opaque)
     if (!state) return;
     pixels_deinit(job, &state->now);
     pixels_deinit(job, &state->next);
+    ppmi_free(job->context, state->plain);
     for (uint32_t i = 0; state->points && i < job->options->threads; i++) {
         ppmi_visible_points_deinit(job->context, &state->points[i]);
     }
@@ -98,6 +100,11 @@ static ppm_status sppm_create(const ppmi_job *job, void **out_state)
 {
     sppm_state *state = ppmi_alloc_zeroed(job->context, 1, sizeof *state);
     bool has_memory = state && pixels_init(job, &state->now) && pixels_init(job, &state->next);
+    if (has_memory) {
+        state->plain = ppmi_alloc_zeroed(job->context, ppmi_film_pixel_count(&job->film),
+                                         sizeof *state->plain);
+        has_memory = state->plain != NULL;
+    }
     if (has_memory) {
         state->points =
             ppmi_alloc_zeroed(job->context, job->options->threads, sizeof *state->points);
@@ -177,9 +184,9 @@ typedef void (*pilot_step)(const ppmi_job *job, sppm_state *state, size_t pixel,
 static void mark_photons(const ppmi_job *job, sppm_state *state, size_t pixel, const tile_eye *eye,
                          uint32_t slot)
 {
-    (void)pixel;
     const uint32_t first = eye->first_point[slot], count = eye->first_point[slot + 1] - first;
-    ppmi_photon_pass_see(job, &state->photons, eye->points + first, count, eye->radiance[slot]);
+    ppmi_photon_pass_see(job, &state->photons, eye->points + first, count, &state->plain[pixel],
+                         eye->radiance[slot]);
 }
 
 /* Narrow lobes want few photons: they say what radius is wanted only where nothing else does. */
@@ -205,7 +212,8 @@ static void grow_radii(const ppmi_job *job, sppm_state *state, size_t pixel, con
         has_grown[is_volume] = true;
         ppmi_gather_statistics *statistics =
             is_volume ? &state->now.volumes[pixel] : &state->now.surfaces[pixel].surface;
-        ppmi_photon_pass_grow(job, &state->photons, point, &statistics->scale);
+        ppmi_plain_disk *known = ppmi_photon_pass_keeps_plain(point) ? &state->plain[pixel] : NULL;
+        ppmi_photon_pass_grow(job, &state->photons, point, known, &statistics->scale);
     }
 }
 
@@ -271,13 +279,14 @@ static float memoryless_extent(float alpha, uint64_t pass)
 
 /* A picture by the photons of this pass alone. */
 static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
-                          const ppmi_visible_point *point, float first, ppmi_pixel_layers *layers)
+                          const ppmi_visible_point *point, float first, ppmi_plain_disk *known,
+                          ppmi_pixel_layers *layers)
 {
     const ppmi_dimension dimension = ppmi_dimension_of(point);
     const float scale = first * ppmi_root_of(state->memoryless_extent, dimension);
     const float unit = ppmi_photon_pass_unit(job, &state->photons, point, first);
     const ppmi_gathered gathered =
-        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit, layers);
+        ppmi_photon_pass_gather(job, &state->photons, point, scale, unit, known, layers);
     const double emitted = (double)state->photons.per_pass;
     const double extent = (double)ppmi_extent_of(scale * unit, dimension);
     return vec3_scale(gathered.flux, (float)(1.0 / (emitted * extent)));
@@ -286,23 +295,26 @@ static ppmi_vec3 estimate(const ppmi_job *job, const sppm_state *state,
 /* What the photons of this pass bring to the pixel's points of one kind. */
 static void gather_points(const ppmi_job *job, const sppm_state *state, const tile_eye *eye,
                           uint32_t slot, ppmi_dimension dimension,
-                          ppmi_gather_statistics *statistics, ppmi_vec3 *direct,
-                          ppmi_pixel_layers *layers)
+                          ppmi_gather_statistics *statistics, ppmi_plain_disk *plain,
+                          ppmi_vec3 *direct, ppmi_pixel_layers *layers)
 {
     ppmi_gathered sum = {0}; /* flux by footprint area or volume */
     for (uint32_t i = eye->first_point[slot]; i < eye->first_point[slot + 1]; i++) {
         const ppmi_visible_point *point = &eye->points[i];
         if (ppmi_dimension_of(point) != dimension) continue;
+        ppmi_plain_disk *known = ppmi_photon_pass_keeps_plain(point) ? plain : NULL;
+        if (known) plain = NULL; /* it is of the first one */
         if (is_memoryless(job)) {
-            const ppmi_vec3 radiance = estimate(job, state, point, statistics->scale, layers);
+            const ppmi_vec3 radiance =
+                estimate(job, state, point, statistics->scale, known, layers);
             const bool is_finite = vec3_is_finite(radiance);
             if (is_finite) *direct = vec3_add(*direct, radiance);
             if (layers) ppmi_pixel_layers_keep(layers, is_finite);
             continue;
         }
         const float unit = ppmi_photon_pass_unit(job, &state->photons, point, statistics->scale);
-        const ppmi_gathered gathered =
-            ppmi_photon_pass_gather(job, &state->photons, point, statistics->scale, unit, layers);
+        const ppmi_gathered gathered = ppmi_photon_pass_gather(
+            job, &state->photons, point, statistics->scale, unit, known, layers);
         sum.flux = vec3_mad(sum.flux, gathered.flux, 1.0f / ppmi_power_of(unit, dimension));
         sum.count += gathered.count;
     }
@@ -327,10 +339,11 @@ static void update_pixel(const ppmi_job *job, sppm_state *state, uint64_t pass, 
     if (eye->layers) start_layers(eye, slot, layers = &gathered);
     pixel_statistics next = state->now.surfaces[pixel];
     next.direct = vec3_add(next.direct, eye->radiance[slot]);
-    gather_points(job, state, eye, slot, PPMI_DISK, &next.surface, &next.direct, layers);
+    gather_points(job, state, eye, slot, PPMI_DISK, &next.surface, &state->plain[pixel],
+                  &next.direct, layers);
     if (state->now.volumes) {
         ppmi_gather_statistics volume = state->now.volumes[pixel];
-        gather_points(job, state, eye, slot, PPMI_BALL, &volume, &next.direct, layers);
+        gather_points(job, state, eye, slot, PPMI_BALL, &volume, NULL, &next.direct, layers);
         state->next.volumes[pixel] = volume;
     }
     state->next.surfaces[pixel] = next;

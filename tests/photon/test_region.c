@@ -88,7 +88,7 @@ static ppmi_gather_region region_at(ppmi_vec3 position, ppmi_vec3 normal, float 
     ppmi_visible_point point = {.position = position};
     point.bsdf.ng = normal;
     ppmi_gather_region region;
-    ppmi_region_find(world.world.accel, &point, radius, 0.0f, &region);
+    ppmi_region_find(world.world.accel, &point, radius, 0.0f, NULL, &region);
     return region;
 }
 
@@ -234,6 +234,37 @@ static void the_share_on_a_ball_is_that_of_its_facets(void **state)
     family_check(&family);
 }
 
+/* Around a box on a floor, with disks that shrink as they do from pass to pass. */
+static void what_is_known_changes_no_region(void **state)
+{
+    (void)state;
+    add_parallelogram(vec3(-5, -5, 0), vec3(10, 0, 0), vec3(0, 10, 0));
+    add_box(vec3(-0.5f, -0.5f, 0), vec3(0.5f, 0.5f, 1));
+    open_world();
+    ppmi_rng rng = ppmi_rng_start(7, 1, 1);
+    uint32_t known_count = 0, whole_count = 0;
+    for (int pixel = 0; pixel < 200; pixel++) {
+        ppmi_plain_disk known = {0};
+        const float x = 4.0f * ppmi_rng_float(&rng) - 2.0f, y = 4.0f * ppmi_rng_float(&rng) - 2.0f;
+        for (float radius = 0.5f; radius > 0.02f; radius *= 0.9f) {
+            const float dx = 0.1f * ppmi_rng_float(&rng), dy = 0.1f * ppmi_rng_float(&rng);
+            ppmi_visible_point point = {.position = vec3(x + dx, y + dy, 0)};
+            point.bsdf.ng = vec3(0, 0, 1);
+            known_count += known.radius > 0.0f ? 1 : 0;
+            const ppmi_gather_region plain = region_at(point.position, point.bsdf.ng, radius);
+            ppmi_gather_region region;
+            ppmi_region_find(world.world.accel, &point, radius, 0.0f, &known, &region);
+            assert_int_equal(region.is_whole, plain.is_whole);
+            assert_memory_equal(&region.share, &plain.share, sizeof plain.share);
+            assert_memory_equal(&region.radius, &plain.radius, sizeof plain.radius);
+            assert_memory_equal(region.limits, plain.limits, sizeof plain.limits);
+            whole_count += region.is_whole ? 1 : 0;
+        }
+    }
+    assert_in_range(known_count, 1000, 6000);
+    assert_in_range(whole_count, 1000, 5900);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -243,6 +274,7 @@ int main(void)
                                         close_scene),
         cmocka_unit_test_setup_teardown(the_share_on_a_ball_is_that_of_its_facets, open_scene,
                                         close_scene),
+        cmocka_unit_test_setup_teardown(what_is_known_changes_no_region, open_scene, close_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
