@@ -79,8 +79,9 @@ static void bad_images_do_no_harm(void **state)
 {
     (void)state;
     const tally counts = read_tree(PPM_ASSETS_DIR "/bad/images");
-    /* two OpenEXR files only have a wrong type attribute, one a displaced data window */
-    assert_int_equal(counts.ok, 3);
+    /* two OpenEXR files only have a wrong type attribute; in one with a displaced data window the
+     * header claims more bytes than the file has */
+    assert_int_equal(counts.ok, 2);
     assert_true(counts.refused > 0);
 }
 
