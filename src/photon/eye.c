@@ -50,6 +50,7 @@ typedef struct eye_path {
     ppmi_eye_history light_history; /* of its light_throughput */
     ppmi_lamp_deposit lamp_deposit;
     ppmi_eye_history histories[MAX_BRANCHES]; /* of those that wait */
+    ppmi_eye_history light_histories[MAX_BRANCHES];
     eye_branch waiting[MAX_BRANCHES];
     ppmi_differential differentials[MAX_BRANCHES]; /* the walker's, of those that wait */
     uint32_t waiting_count;
@@ -202,6 +203,41 @@ static void record_narrow(eye_path *path, const eye_branch *branch, const eye_ve
         merge_area(path, branch, &at->bsdf);
 }
 
+/* A ray from where the path gathers to the first surface that is more than a thin sheet to it. */
+typedef struct light_probe {
+    ppmi_origin origin;
+    ppmi_ray ray;
+    ppmi_vec3 throughput;
+} light_probe;
+
+/* Adds the light that a probe meets on its way to the next surface. True if it goes on behind it:
+ * straight through a sheet, as the shadow rays that share the light with it. */
+static bool meet_light(eye_path *path, const ppmi_eye_history *history, light_probe *probe)
+{
+    ppmi_walker *walker = path->walker;
+    const ppmi_vec3 direction = probe->ray.direction;
+    eye_vertex next;
+    walker->origin = &probe->origin;
+    watch_lamps(path, history, probe->throughput);
+    const ppmi_arrival arrival = ppmi_walk(walker, probe->ray, PPMI_RAY_OTHER, &next.vertex);
+    walker->origin = NULL;
+    add_lamps(path, history, probe->throughput, next.vertex.lamplight);
+    probe->throughput = vec3_mul(probe->throughput, next.vertex.transmittance);
+    if (arrival == PPMI_ESCAPED) {
+        add_environment(path, history, direction, probe->throughput, &probe->origin);
+    }
+    if (arrival != PPMI_AT_SURFACE) return false;
+    add_emission(path, history, &next.vertex, probe->throughput,
+                 ppmi_walk_emission(walker, &next.vertex, direction, &probe->origin));
+    if (!next.vertex.surface.material->is_sheet) return false;
+    ppmi_walk_bsdf(walker, &next.vertex, direction, &next.bsdf);
+    const ppmi_vec3 passing = ppmi_bsdf_straight(&next.bsdf, walker->world->albedo);
+    probe->throughput = vec3_mul(probe->throughput, passing);
+    probe->origin = ppmi_origin_beyond(&probe->origin, &next.vertex);
+    probe->ray = ppmi_surface_ray(&next.vertex.surface, direction);
+    return !vec3_is_black(probe->throughput);
+}
+
 /* The other half of MIS where the path gathers: a direction from the gathering lobes may meet a
  * light. A path that draws its group weighs with all lobes and their whole density, since the group
  * is part of the draw; one that splits with the group's own. */
@@ -229,25 +265,17 @@ static void add_bsdf_sampled_light(eye_path *path, const eye_branch *branch, con
     ppmi_eye_history history;
     if (path->sink) history = path->history;
     scatter(path, at, &sample, is_split ? bsdf->gather_lobes : PPMI_LOBE_ALL, &history);
-    const ppmi_origin origin = {.receiver = ppmi_walk_receiver(&at->vertex, bsdf), .pdf = pdf};
     const ppmi_interior interior = walker->interior;
     const float wavelength = walker->wavelength_nm;
     ppmi_differential differential;
     ppmi_differential_copy(&differential, &walker->differential);
-    const ppmi_ray ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput);
-    ppmi_vertex next;
-    walker->origin = &origin;
-    watch_lamps(path, &history, throughput);
-    const ppmi_arrival arrival = ppmi_walk(walker, ray, PPMI_RAY_OTHER, &next);
-    walker->origin = NULL;
-    add_lamps(path, &history, throughput, next.lamplight);
-    throughput = vec3_mul(throughput, next.transmittance);
-    if (arrival == PPMI_AT_SURFACE) {
-        add_emission(path, &history, &next, throughput,
-                     ppmi_walk_emission(walker, &next, sample.wi, &origin));
-    } else if (arrival == PPMI_ESCAPED) {
-        add_environment(path, &history, sample.wi, throughput, &origin);
-    }
+    light_probe probe = {
+        .origin = {.receiver = ppmi_walk_receiver(&at->vertex, bsdf), .pdf = pdf},
+        .ray = ppmi_walk_leave(walker, &at->vertex, &sample, &throughput),
+    };
+    probe.throughput = throughput;
+    while (meet_light(path, &history, &probe))
+        continue;
     walker->interior = interior;
     walker->wavelength_nm = wavelength;
     ppmi_differential_copy(&walker->differential, &differential);
@@ -286,6 +314,10 @@ static eye_branch branch_beyond(eye_path *path, const eye_branch *branch, const 
     }
     /* light that comes straight to a vertex is sampled there, unless photons bring it too */
     if (sample->is_delta || !path->settings->samples_lights) next.origin.merging = next.merging;
+    if (ppmi_bsdf_goes_straight(&at->bsdf, sample)) {
+        next.origin = ppmi_origin_beyond(&branch->origin, &at->vertex);
+        next.light_throughput = vec3_mul(vec3_mul(branch->light_throughput, light_weight), cost);
+    }
     next.interior = walker->interior;
     next.wavelength_nm = walker->wavelength_nm;
     next.depth = branch->depth + 1;
@@ -310,7 +342,9 @@ static bool go_on(eye_path *path, eye_branch *branch, const eye_vertex *at, uint
     if (!draw(path, at, mask, &sample)) return false;
     const ppmi_vec3 weight = vec3_scale(sample.weight, 1.0f / probability);
     ppmi_vec3 light_weight = weight;
-    if (path->sink) path->light_history = path->history;
+    if (path->sink && !ppmi_bsdf_goes_straight(&at->bsdf, &sample)) {
+        path->light_history = path->history;
+    }
     const bool is_weighed = !sample.is_delta && path->settings->samples_lights;
     scatter(path, at, &sample, mask, &path->history);
     scatter(path, at, &sample, is_weighed ? PPMI_LOBE_ALL : mask, &path->light_history);
@@ -324,6 +358,19 @@ static bool go_on(eye_path *path, eye_branch *branch, const eye_vertex *at, uint
     return true;
 }
 
+/* Those of a branch that is put off. */
+static void keep_histories(eye_path *path, const eye_vertex *at, const ppmi_bsdf_sample *sample,
+                           uint32_t mask)
+{
+    ppmi_eye_history *history = &path->histories[path->waiting_count];
+    ppmi_eye_history *light_history = &path->light_histories[path->waiting_count];
+    const bool goes_straight = ppmi_bsdf_goes_straight(&at->bsdf, sample);
+    *history = path->history;
+    *light_history = goes_straight ? path->light_history : path->history;
+    scatter(path, at, sample, mask, history);
+    scatter(path, at, sample, mask, light_history);
+}
+
 static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *at, uint32_t mask,
                     const ppmi_bsdf_sample *sample)
 {
@@ -335,12 +382,11 @@ static void put_off(eye_path *path, const eye_branch *branch, const eye_vertex *
     next.splits++;
     path->walker->interior = interior;
     path->walker->wavelength_nm = wavelength;
-    if (!vec3_is_black(next.throughput)) {
+    if (!vec3_is_black(next.throughput) || !vec3_is_black(next.light_throughput)) {
         ppmi_differential_copy(&path->differentials[path->waiting_count],
                                &path->walker->differential);
         if (path->sink) {
-            path->histories[path->waiting_count] = path->history;
-            scatter(path, at, sample, mask, &path->histories[path->waiting_count]);
+            keep_histories(path, at, sample, mask);
         }
         path->waiting[path->waiting_count++] = next;
     }
@@ -507,14 +553,17 @@ bool ppmi_eye_path(ppm_context *context, ppmi_walker *walker, const ppmi_camera_
         .interior = walker->interior,
         .wavelength_nm = walker->wavelength_nm,
     };
-    if (sink) path.histories[0] = ppmi_eye_history_start();
+    if (sink) path.histories[0] = path.light_histories[0] = ppmi_eye_history_start();
     ppmi_differential_copy(&path.differentials[0], &walker->differential);
     while (path.waiting_count > 0) {
         const eye_branch branch = path.waiting[--path.waiting_count];
         walker->interior = branch.interior;
         walker->wavelength_nm = branch.wavelength_nm;
         ppmi_differential_copy(&walker->differential, &path.differentials[path.waiting_count]);
-        if (sink) path.history = path.light_history = path.histories[path.waiting_count];
+        if (sink) {
+            path.history = path.histories[path.waiting_count];
+            path.light_history = path.light_histories[path.waiting_count];
+        }
         follow(&path, branch);
     }
     return !path.is_out_of_memory;

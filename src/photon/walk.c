@@ -31,8 +31,9 @@ typedef struct photon_state {
     ppmi_ray ray;
     ppmi_vec3 power;
     ppmi_photon_history history;
-    float crowding; /* of its light, as long as it met mirrors and smooth glass only; else 0 */
-    uint32_t depth; /* number of its next vertex */
+    float crowding;  /* of its light, as long as it met mirrors and smooth glass only; else 0 */
+    uint32_t depth;  /* number of its next vertex */
+    uint32_t passed; /* of those before it: thin sheets, straight from the light */
 } photon_state;
 
 /* What a walk's photons have in common. */
@@ -70,6 +71,9 @@ static bool bounce(const photon_path *path, const ppmi_vertex *vertex, const ppm
     if (!(survival > 0.0f) || ppmi_rng_float(&walker->rng) >= survival) return false;
     photon->power = vec3_scale(next, 1.0f / survival);
     photon->ray = ppmi_walk_leave(walker, vertex, &sample, &photon->power);
+    if (photon->passed == photon->depth && ppmi_bsdf_goes_straight(bsdf, &sample)) {
+        photon->passed++;
+    }
     photon->depth++;
     if (!sample.is_delta) photon->crowding = 0.0f;
     if (path->walk->tags_photons) {
@@ -157,7 +161,7 @@ static bool follow(const photon_path *path, photon_state photon)
         if (vec3_is_black(photon.power)) return true;
         ppmi_bsdf bsdf;
         ppmi_walk_bsdf(path->walker, &vertex, photon.ray.direction, &bsdf);
-        if (photon.depth >= walk->first_depth && counts_somewhere(&bsdf, &photon) &&
+        if (photon.depth - photon.passed >= walk->first_depth && counts_somewhere(&bsdf, &photon) &&
             !store(path, &vertex, &bsdf, &photon)) {
             return false;
         }

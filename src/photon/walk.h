@@ -16,7 +16,8 @@ typedef struct ppmi_photon_walk {
     uint32_t count;       /* photons to emit */
     uint32_t max_depth;
     uint32_t first_depth; /* photons are kept from this vertex on: 1 leaves what comes straight from
-                             a light to light sampling, 0 keeps it */
+                             a light to light sampling, 0 keeps it; thin sheets that they pass
+                             straight from the light are no vertices */
     const ppmi_aim *aim;  /* where to send photons; NULL: evenly, by power */
     const ppmi_photon_guide *guide;  /* what is learnt about the numbers that aim takes, or NULL */
     bool tags_photons;               /* for layers of light, */

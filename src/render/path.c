@@ -175,9 +175,11 @@ static void trace_path(path_trace *path, ppmi_ray ray, uint32_t max_depth)
         }
         throughput = vec3_mul(throughput, sample.weight);
         eta_scale *= sample.eta_scale;
-        origin = (ppmi_origin){.receiver = ppmi_walk_receiver(&vertex, &bsdf),
-                               .pdf = sample.pdf,
-                               .is_delta = sample.is_delta};
+        origin = ppmi_bsdf_goes_straight(&bsdf, &sample)
+                     ? ppmi_origin_beyond(&origin, &vertex)
+                     : (ppmi_origin){.receiver = ppmi_walk_receiver(&vertex, &bsdf),
+                                     .pdf = sample.pdf,
+                                     .is_delta = sample.is_delta};
         ray = ppmi_walk_leave(walker, &vertex, &sample, &throughput);
         if (path->sink) {
             ppmi_eye_history_scatter(&path->history, &bsdf, walker->world->albedo, sample.wi,

@@ -307,6 +307,7 @@ static void derive(ppmi_material *material)
     material->is_solid_glass =
         is_solid &&
         (desc->transmission > 0.0f || (desc->diffuse_transmission > 0.0f && !is_empty(&inside)));
+    material->is_sheet = !is_solid && desc->transmission > 0.0f;
     material->inside = material->is_solid_glass ? inside : (ppmi_medium){0};
     material->is_layered = desc->clearcoat > 0.0f || desc->iridescence > 0.0f ||
                            !vec3_is_black(vec3_load(desc->sheen_color)) ||

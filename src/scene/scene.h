@@ -53,6 +53,7 @@ typedef struct ppmi_material {
     bool emits;             /* emission is not black */
     bool has_alpha;         /* MASK or BLEND: a ray may pass */
     bool is_solid_glass;    /* transmissive, bounds a solid */
+    bool is_sheet;          /* transmissive, thin: light may go straight on */
     bool is_layered;        /* has more than core, ior, specular and transmission ask for */
     ppmi_medium inside;     /* of the solid */
 } ppmi_material;

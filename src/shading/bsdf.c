@@ -446,6 +446,19 @@ uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
     return count;
 }
 
+ppmi_vec3 ppmi_bsdf_straight(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
+{
+    ppmi_vec3 passing = vec3_splat(0.0f);
+    if (!bsdf->is_thin || !(bsdf->delta_lobes & PPMI_LOBE_GLASS)) return passing;
+    ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
+    const uint32_t count =
+        ppmi_bsdf_branches(bsdf, albedo, PPMI_LOBE_GLASS, PPMI_TRANSPORT_RADIANCE, samples);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ppmi_bsdf_goes_straight(bsdf, &samples[i])) passing = samples[i].weight;
+    }
+    return passing;
+}
+
 static void draw_phase(const ppmi_bsdf *bsdf, float u, float v, ppmi_bsdf_sample *sample)
 {
     const ppmi_vec3 local = ppmi_phase_sample(bsdf->asymmetry_g, u, v);

@@ -162,6 +162,16 @@ uint32_t ppmi_bsdf_branches(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
                             ppmi_transport transport,
                             ppmi_bsdf_sample out_samples[PPMI_BSDF_MAX_BRANCHES]);
 
+/* Whether a sample goes straight on through a thin sheet, as shadow rays do. */
+static inline bool ppmi_bsdf_goes_straight(const ppmi_bsdf *bsdf, const ppmi_bsdf_sample *sample)
+{
+    return bsdf->is_thin && sample->is_delta && sample->is_transmission;
+}
+
+/* The share of radiance towards wo that comes straight through a thin sheet, by channel: all that
+ * samples which go straight bring. 0 for anything else. */
+ppmi_vec3 ppmi_bsdf_straight(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo);
+
 static inline bool ppmi_bsdf_is_phase(const ppmi_bsdf *bsdf)
 {
     return (bsdf->lobes & PPMI_LOBE_PHASE) != 0;

@@ -52,6 +52,12 @@ static scattering scattering_of(const ppmi_bsdf *bsdf, const ppmi_albedo_table *
     return s;
 }
 
+/* Light goes on through a thin sheet as if it were not there. */
+static bool goes_straight(const ppmi_bsdf *bsdf, ppmi_vec3 wi, bool is_delta)
+{
+    return is_delta && bsdf->is_thin && vec3_dot(wi, bsdf->ng) < 0.0f;
+}
+
 static void scatter_first(ppmi_eye_history *history, const scattering *s)
 {
     history->vertices = 1;
@@ -110,6 +116,7 @@ void ppmi_eye_history_scatter(ppmi_eye_history *history, const ppmi_bsdf *bsdf,
         scatter_first(history, &s);
         return;
     }
+    if (goes_straight(bsdf, wi, is_delta)) return;
     history->vertices = 2;
     scatter_on(history->share[0], &s);
     scatter_on(history->share[1], &s);
@@ -254,6 +261,7 @@ void ppmi_lamp_deposit_begin(ppmi_lamp_deposit *deposit, ppmi_walker *walker,
 void ppmi_photon_history_scatter(ppmi_photon_history *history, const ppmi_bsdf *bsdf,
                                  const ppmi_albedo_table *albedo, ppmi_vec3 wi, bool is_delta)
 {
+    if (goes_straight(bsdf, wi, is_delta)) return;
     const bool was_straight = history->is_straight;
     history->is_straight = false;
     if (ppmi_bsdf_is_phase(bsdf)) {

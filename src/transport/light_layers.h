@@ -18,6 +18,9 @@
  * _DIRECT if that vertex is the only one, _INDIRECT if not. Light whose first vertex is in a medium
  * is no caustic.
  *
+ * What goes straight through a thin sheet, as shadow rays do, meets no vertex there; but the first
+ * that the eye sees is one.
+ *
  * Where a surface has several lobes, their shares in f part the light, colour by colour: layers
  * neither depend on which lobe a direction was drawn from, nor on the integrator. */
 #ifndef PPMI_TRANSPORT_LIGHT_LAYERS_H

@@ -92,27 +92,68 @@ enum { OPAQUE_LOG2 = 40 };
 
 typedef struct shadow_filter {
     ppmi_hit_filter base;
-    const ppm_scene *scene;
-    int64_t depth; /* -log2 of the product */
+    const ppmi_world *world;
+    ppmi_vec3 direction;
+    int64_t depth[3]; /* -log2 of the product, by channel */
 } shadow_filter;
+
+/* What the material lets straight through, where there is a surface. Made as for an eye path that
+ * goes the ray's way. */
+static ppmi_vec3 straight_through(const ppmi_world *world, const ppmi_surface *surface,
+                                  ppmi_vec3 direction)
+{
+    ppmi_material_point point;
+    ppmi_bsdf bsdf;
+    ppmi_material_evaluate(world->scene, surface, &point);
+    ppmi_bsdf_make(world->albedo, surface, &point, vec3_neg(direction), &bsdf);
+    return ppmi_bsdf_straight(&bsdf, world->albedo);
+}
+
+/* What a hit leaves of the light. */
+static ppmi_vec3 left_by(const ppmi_world *world, const ppmi_hit *hit, ppmi_vec3 direction)
+{
+    const ppmi_material *material = material_of(world->scene, hit);
+    ppmi_vec3 left = vec3_splat(0.0f);
+    if (!material->has_alpha && !material->is_sheet) return left;
+    ppmi_surface surface;
+    ppmi_surface_from_hit(world->scene, hit, &surface);
+    const float opacity = ppmi_surface_opacity(world->scene, &surface);
+    if (material->is_sheet && opacity > 0.0f) left = straight_through(world, &surface, direction);
+    return vec3_mad(vec3_splat(1.0f - opacity), left, opacity);
+}
+
+static int64_t depth_of(float left)
+{
+    if (!(left > 0.0f)) return OPAQUE_LOG2 * (int64_t)ONE_LOG2;
+    return left < 1.0f ? (int64_t)(-ONE_LOG2 * log2f(left)) : 0;
+}
 
 static bool dims(ppmi_hit_filter *base, const ppmi_hit *hit)
 {
     shadow_filter *filter = (shadow_filter *)base;
-    if (!material_of(filter->scene, hit)->has_alpha) return false;
-    ppmi_surface surface;
-    ppmi_surface_from_hit(filter->scene, hit, &surface);
-    const float opacity = ppmi_surface_opacity(filter->scene, &surface);
-    if (opacity <= 0.0f) return true;
-    if (opacity >= 1.0f) return false;
-    filter->depth += (int64_t)(-ONE_LOG2 * log2f(1.0f - opacity));
-    return filter->depth < OPAQUE_LOG2 * (int64_t)ONE_LOG2;
+    const ppmi_vec3 left = left_by(filter->world, hit, filter->direction);
+    if (vec3_is_black(left)) return false;
+    filter->depth[0] += depth_of(left.x);
+    filter->depth[1] += depth_of(left.y);
+    filter->depth[2] += depth_of(left.z);
+    bool is_opaque = true;
+    for (int i = 0; i < 3; i++)
+        is_opaque = is_opaque && filter->depth[i] >= OPAQUE_LOG2 * (int64_t)ONE_LOG2;
+    return !is_opaque;
 }
 
-float ppmi_passing_visibility(const ppmi_world *world, const ppmi_ray *ray)
+static float product(int64_t depth)
 {
-    if (!world->has_alpha) return ppmi_accel_occluded(world->accel, ray) ? 0.0f : 1.0f;
-    shadow_filter filter = {.base = {dims}, .scene = world->scene};
-    if (ppmi_accel_occluded_filtered(world->accel, ray, &filter.base)) return 0.0f;
-    return exp2f(-(float)filter.depth / ONE_LOG2);
+    if (depth >= OPAQUE_LOG2 * (int64_t)ONE_LOG2) return 0.0f;
+    return exp2f(-(float)depth / ONE_LOG2);
+}
+
+ppmi_vec3 ppmi_passing_visibility(const ppmi_world *world, const ppmi_ray *ray)
+{
+    if (!world->has_alpha && !world->has_sheets) {
+        return vec3_splat(ppmi_accel_occluded(world->accel, ray) ? 0.0f : 1.0f);
+    }
+    shadow_filter filter = {.base = {dims}, .world = world, .direction = ray->direction};
+    if (ppmi_accel_occluded_filtered(world->accel, ray, &filter.base)) return vec3_splat(0.0f);
+    return vec3(product(filter.depth[0]), product(filter.depth[1]), product(filter.depth[2]));
 }

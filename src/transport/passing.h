@@ -1,7 +1,7 @@
-/* What rays pass on their way: surfaces that alpha takes away, and backs that the camera does not
- * see. All is decided within one search of the acceleration structure
- * (ppmi_accel_intersect_filtered): any number is passed, and nothing behind them is jumped over,
- * however close. */
+/* What rays pass on their way: surfaces that alpha takes away, backs that the camera does not see,
+ * and thin sheets, which do not bend light, for shadow rays. All is decided within one search of
+ * the acceleration structure (ppmi_accel_intersect_filtered): any number is passed, and nothing
+ * behind them is jumped over, however close. */
 #ifndef PPMI_TRANSPORT_PASSING_H
 #define PPMI_TRANSPORT_PASSING_H
 
@@ -19,7 +19,8 @@ bool ppmi_passing_intersect(ppmi_walker *walker, const ppmi_ray *ray, ppmi_ray_k
 bool ppmi_passing_intersect_rounded(const ppmi_world *world, const ppmi_ray *ray,
                                     ppmi_ray_kind kind, ppmi_hit *out_hit);
 
-/* The product of 1 - opacity of all surfaces in (0, t_max). */
-float ppmi_passing_visibility(const ppmi_world *world, const ppmi_ray *ray);
+/* The product, by channel, of what all surfaces in (0, t_max) leave of light that comes along the
+ * ray to its origin: 1 - opacity, and what goes straight through thin sheets. */
+ppmi_vec3 ppmi_passing_visibility(const ppmi_world *world, const ppmi_ray *ray);
 
 #endif

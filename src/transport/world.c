@@ -21,6 +21,7 @@ void ppmi_world_init(ppmi_world *world, const ppm_scene *scene, const ppmi_accel
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const ppmi_material *material = &scene->materials[i];
         world->has_alpha = world->has_alpha || material->has_alpha;
+        world->has_sheets = world->has_sheets || material->is_sheet;
         if (!material->desc.double_sided && !material->is_solid_glass)
             world->has_single_sided = true;
         world->has_scattering = world->has_scattering || ppmi_medium_scatters(&material->inside);
@@ -137,8 +138,9 @@ static void add_lamp(const ppmi_walker *walker, const ppmi_ray *ray, const ppmi_
     const ppmi_origin *origin = walker->origin;
     float weight = left_by_photons(walker->world, origin, lamp->radiance);
     if (!origin->is_delta) {
-        const float light_pdf = ppmi_lights_pdf_lamp(walker->world->lights, &origin->receiver,
-                                                     lamp->lamp, ray->direction, vertex->distance);
+        const float light_pdf =
+            ppmi_lights_pdf_lamp(walker->world->lights, &origin->receiver, lamp->lamp,
+                                 ray->direction, origin->distance + vertex->distance);
         weight = ppmi_mis_weight(origin->pdf, light_pdf);
     }
     const ppmi_vec3 light = vec3_scale(vec3_mul(vertex->transmittance, lamp->radiance), weight);
@@ -201,6 +203,14 @@ static ppmi_arrival follow(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind
     return PPMI_ESCAPED;
 }
 
+/* What a sheet lets straight through is looked up by shadow rays at its finest: a path that may
+ * find the same light beside them sees the same. */
+static void see_sheet_as_shadow_rays_do(const ppmi_walker *walker, ppmi_vertex *vertex)
+{
+    if (!walker->differential.is_scattered || !vertex->surface.material->is_sheet) return;
+    vertex->surface.uv_dx = vertex->surface.uv_dy = (ppmi_vec2){0.0f, 0.0f};
+}
+
 static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, ppmi_vertex *vertex,
                          scatter_choice *choice)
 {
@@ -208,6 +218,7 @@ static ppmi_arrival walk(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kind kind, 
     if (!walker->differential.is_known) return arrival;
     if (arrival == PPMI_AT_SURFACE) {
         ppmi_differential_meet(&walker->differential, vertex->distance, &vertex->surface);
+        see_sheet_as_shadow_rays_do(walker, vertex);
     } else if (arrival == PPMI_IN_MEDIUM) {
         ppmi_differential_advance(&walker->differential, vertex->distance);
     }
@@ -248,9 +259,9 @@ static ppmi_vec3 media_transmittance(const ppmi_world *world, const ppmi_interio
 ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior)
 {
     walker->rays++;
-    const float visibility = ppmi_passing_visibility(walker->world, &ray);
-    if (visibility <= 0.0f) return vec3_splat(0.0f);
-    return vec3_scale(media_transmittance(walker->world, interior, &ray, ray.t_max), visibility);
+    const ppmi_vec3 visibility = ppmi_passing_visibility(walker->world, &ray);
+    if (vec3_is_black(visibility)) return visibility;
+    return vec3_mul(media_transmittance(walker->world, interior, &ray, ray.t_max), visibility);
 }
 
 /* From surface to light. Both ends are moved off their surfaces; what is left of rounding grows
@@ -423,8 +434,9 @@ ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *verte
     if (origin->is_delta || vec3_is_black(radiance)) {
         return vec3_scale(radiance, left_by_photons(world, origin, radiance));
     }
-    const float light_pdf = ppmi_lights_pdf_surface(world->lights, &origin->receiver, &vertex->hit,
-                                                    &vertex->surface, direction, vertex->distance);
+    const float light_pdf =
+        ppmi_lights_pdf_surface(world->lights, &origin->receiver, &vertex->hit, &vertex->surface,
+                                direction, origin->distance + vertex->distance);
     return vec3_scale(radiance, ppmi_mis_weight(origin->pdf, light_pdf));
 }
 

@@ -21,6 +21,7 @@ typedef struct ppmi_world {
     const ppmi_spectrum *spectrum;
     const ppmi_contacts *contacts;
     bool has_alpha;        /* some material lets rays pass */
+    bool has_sheets;       /* some material lets light straight through */
     bool has_single_sided; /* some material's back is not seen by the camera */
     bool has_textures;     /* some image has mipmaps: footprints matter */
     bool has_lamps;        /* some light has an extent and no surface */
@@ -149,8 +150,8 @@ ppmi_arrival ppmi_walk_both_ways(ppmi_walker *walker, ppmi_ray ray, ppmi_ray_kin
                                  uint32_t count);
 
 /* Light that passes along a ray (unit direction) up to t_max, from within interior: 0 behind
- * anything opaque, else the product of 1 - opacity through alpha and of the media's transmittance.
- */
+ * anything opaque, else the product of 1 - opacity through alpha, of what thin sheets let straight
+ * through, and of the media's transmittance. */
 ppmi_vec3 ppmi_walk_visibility(ppmi_walker *walker, ppmi_ray ray, const ppmi_interior *interior);
 
 /* A vertex as light sampling knows it. */
@@ -210,14 +211,24 @@ void ppmi_walk_bsdf_from(const ppmi_walker *walker, const ppmi_vertex *vertex,
 ppmi_ray ppmi_walk_leave(ppmi_walker *walker, const ppmi_vertex *vertex,
                          const ppmi_bsdf_sample *sample, ppmi_vec3 *throughput);
 
-/* Where a path comes from, for the MIS weight of emission that it meets. */
+/* Where a path comes from, for the MIS weight of emission that it meets: its last vertex that is
+ * not passed straight through a thin sheet, since light sampling there looks through sheets too. */
 typedef struct ppmi_origin {
     ppmi_receiver receiver; /* what light sampling there chooses by; irrelevant if is_delta */
     float pdf;              /* by solid angle of its direction; irrelevant if is_delta */
     bool is_delta;          /* camera, mirror or smooth glass: light sampling cannot do it */
+    float distance;         /* of the last sheet that was passed, from the origin */
     float merging;          /* where photons bring the same light to an earlier vertex: how likely
                                they are to, for a crowding of 1, by how likely this path is; else 0 */
 } ppmi_origin;
+
+/* The origin beyond a vertex where the path goes straight through a thin sheet. */
+static inline ppmi_origin ppmi_origin_beyond(const ppmi_origin *origin, const ppmi_vertex *sheet)
+{
+    ppmi_origin beyond = *origin;
+    beyond.distance += sheet->distance;
+    return beyond;
+}
 
 /* Emission of a surface vertex towards where the ray (unit direction) came from, weighed by MIS. */
 ppmi_vec3 ppmi_walk_emission(const ppmi_walker *walker, const ppmi_vertex *vertex,

@@ -173,6 +173,46 @@ static void layers_of_mixed_materials_in_fog_agree(void **state)
     layers_agree("mixed materials", 0.08f, 0.02);
 }
 
+/* A tinted pane that is a fifth opaque. */
+static ppm_material_id material_pane(void)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.base_color[0] = desc.base_color[1] = 0.8f;
+    desc.metallic = desc.roughness = 0.0f;
+    desc.transmission = 0.8f;
+    desc.transmission_kind = PPM_TRANSMISSION_THIN;
+    return material_add(test.scene, &desc);
+}
+
+/* What comes straight through panes is direct; what they reflect, and what then meets glass, is
+ * not. One pane is in the way of the camera, two are in that of the lamps. */
+static void layers_behind_panes_agree(void **state)
+{
+    (void)state;
+    ppm_scene *scene = test.scene;
+    const ppm_material_id pane = material_pane();
+    add_quad(scene, material_plastic(0.4f, 0.0f, 0.0f), vec3(-2, 0, -2), vec3(0, 0, 4),
+             vec3(4, 0, 0));
+    add_quad(scene, material_plastic(0.35f, 1.0f, 0.0f), vec3(-2, 0, -2), vec3(4, 0, 0),
+             vec3(0, 2, 0));
+    add_ball(material_glass(scene, 1.5f, 0.0f), vec3(-0.6f, 0.5f, 0.2f), 0.4f);
+    add_quad(scene, pane, vec3(-2, 1.3f, -2), vec3(0, 0, 4), vec3(4, 0.2f, 0));
+    add_quad(scene, pane, vec3(-2, 1.5f, -2), vec3(0, 0, 4), vec3(4, 0, 0));
+    add_quad(scene, pane, vec3(-0.2f, -0.1f, 1.2f), vec3(1.5f, 0, 0), vec3(0, 1.2f, 0.2f));
+    ppm_light_desc lamp = {.size = sizeof lamp,
+                           .name = "ball",
+                           .kind = PPM_LIGHT_POINT,
+                           .transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 2.4f, 0.5f, 1},
+                           .intensity = {6, 6, 6},
+                           .radius_m = 0.4f};
+    ppm_light_id id;
+    assert_int_equal(ppm_scene_add_light(scene, &lamp, &id), PPM_STATUS_OK);
+    light_environment(scene, vec3(0.3f, 0.3f, 0.3f), 0, 0.0f);
+    camera_perspective(scene, vec3(0, 1.0f, 3.2f), vec3(0, 0.4f, 0), 0.8f);
+    layers_agree("panes", 0.08f, 0.02);
+}
+
 /* Twice the light of a lamp is twice its layer. */
 static void a_group_twice_as_bright_is_its_layer_twice(void **state)
 {
@@ -219,6 +259,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(layers_of_the_caustic_box_agree),
         WITH_SCENE(layers_of_mixed_materials_in_fog_agree),
+        WITH_SCENE(layers_behind_panes_agree),
         WITH_SCENE(a_group_twice_as_bright_is_its_layer_twice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,6 +68,43 @@ static void visibility_is_the_product_of_what_veils_leave(void **state)
     }
 }
 
+/* Straight light through a thin sheet of index 1.5: 1 - 2 R / (1 + R), R = 0.04. */
+static void visibility_has_what_sheets_let_straight_through(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.transmission_kind = PPM_TRANSMISSION_THIN;
+    desc.metallic = 0.0f;
+    const float roughness[] = {0.0f, 0.0f, 0.0f, 0.4f}, transmission[] = {1.0f, 1.0f, 0.5f, 1.0f};
+    for (int i = 0; i < 4; i++) {
+        desc.roughness = roughness[i];
+        desc.transmission = transmission[i];
+        desc.base_color[1] = 0.5f;
+        desc.base_color[2] = i == 1 ? 0.0f : 1.0f;
+        desc.alpha_mode = i == 2 ? PPM_ALPHA_BLEND : PPM_ALPHA_OPAQUE;
+        desc.base_color[3] = 0.25f;
+        add_quad(test.scene, material_add(test.scene, &desc), vec3(-1, -1, -1.0f - (float)i),
+                 vec3(2, 0, 0), vec3(0, 2, 0));
+    }
+    world_open(&world, &test);
+    const double clear = 1.0 - 0.08 / 1.04, half = 0.75 + 0.25 * 0.5 * clear,
+                 green = 0.75 + 0.25 * 0.25 * clear;
+    const double expected[4][3] = {{clear, 0.5 * clear, clear},
+                                   {clear * clear, 0.25 * clear * clear, 0.0},
+                                   {clear * clear * half, 0.25 * clear * clear * green, 0.0},
+                                   {0.0, 0.0, 0.0}};
+    ppmi_walker walker = walker_of(0);
+    for (int i = 0; i < 4; i++) {
+        ppmi_ray ray = ahead;
+        ray.t_max = 1.5f + (float)i;
+        const ppmi_vec3 seen = ppmi_walk_visibility(&walker, ray, &walker.interior);
+        assert_near(seen.x, expected[i][0], 1e-6);
+        assert_near(seen.y, expected[i][1], 1e-6);
+        assert_near(seen.z, expected[i][2], 1e-6);
+    }
+}
+
 static void paths_stop_at_a_veil_as_often_as_it_is_opaque(void **state)
 {
     (void)state;
@@ -297,6 +334,7 @@ int main(void)
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
     const struct CMUnitTest tests[] = {
         WITH_SCENE(visibility_is_the_product_of_what_veils_leave),
+        WITH_SCENE(visibility_has_what_sheets_let_straight_through),
         WITH_SCENE(paths_stop_at_a_veil_as_often_as_it_is_opaque),
         WITH_SCENE(only_camera_rays_see_through_backs),
         WITH_SCENE(the_camera_sees_the_front_that_lies_on_a_back),
