@@ -177,6 +177,14 @@ ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *p
     return ppmi_photon_map_begin_marks(job->context, &photons->map);
 }
 
+bool ppmi_photon_pass_looks_from(const ppmi_job *job, const ppmi_photon_pass *photons, size_t pixel)
+{
+    const uint64_t wanted = 1 << 14;
+    const uint64_t stride = ppmi_film_pixel_count(&job->film) / wanted;
+    if (stride <= 1) return true;
+    return ppmi_hash64(((uint64_t)photons->aim.rounds << 48) + pixel) % stride == 0;
+}
+
 /* Nothing stays known where things move from pass to pass. */
 static ppmi_plain_disk *known_of(const ppmi_job *job, ppmi_plain_disk *known)
 {

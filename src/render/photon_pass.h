@@ -30,11 +30,14 @@ ppm_status ppmi_photon_pass_run(const ppmi_job *job, ppmi_photon_pass *photons, 
 
 /* ---- the pilot: photons that are not used for the picture ------------------------------------ */
 
-/* Where photons are aimed this is learnt in rounds: photons are traced, every pixel's points see
- * them, and the round ends. */
+/* Where photons are aimed this is learnt in rounds: photons are traced, the points of the round's
+ * pixels see them, and the round ends. */
 bool ppmi_photon_pass_wants_round(const ppmi_job *job, const ppmi_photon_pass *photons);
 ppm_status ppmi_photon_pass_begin_round(const ppmi_job *job, ppmi_photon_pass *photons,
                                         ppm_render_stats *stats);
+/* Whether a pixel is one of the round's: some 16,000, others in each round. */
+bool ppmi_photon_pass_looks_from(const ppmi_job *job, const ppmi_photon_pass *photons,
+                                 size_t pixel);
 /* count points of one pixel, which has light besides. Any thread. */
 void ppmi_photon_pass_see(const ppmi_job *job, const ppmi_photon_pass *photons,
                           const ppmi_visible_point *points, size_t count, ppmi_plain_disk *plain,

@@ -181,6 +181,7 @@ static void mark_tile(const ppmi_job *job, ppm_state *state, uint32_t index)
         const uint32_t owner = points->points[i].owner;
         for (end = i + 1; end < points->count && points->points[end].owner == owner;)
             end++;
+        if (!ppmi_photon_pass_looks_from(job, &state->photons, owner)) continue;
         ppmi_photon_pass_see(job, &state->photons, points->points + i, end - i,
                              &state->statistics[index][i].plain, state->direct[owner]);
     }

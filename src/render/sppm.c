@@ -185,6 +185,7 @@ static void mark_photons(const ppmi_job *job, sppm_state *state, size_t pixel, c
                          uint32_t slot)
 {
     const uint32_t first = eye->first_point[slot], count = eye->first_point[slot + 1] - first;
+    if (!ppmi_photon_pass_looks_from(job, &state->photons, pixel)) return;
     ppmi_photon_pass_see(job, &state->photons, eye->points + first, count, &state->plain[pixel],
                          eye->radiance[slot]);
 }
