@@ -144,7 +144,7 @@ static ppmi_vec3 far_direction(const ppmi_aim *aim, const ppmi_emitter *e, const
     return towards;
 }
 
-/* Parallel light: over the target's shadow, or without one over the extent's. */
+/* Parallel light: over the target's shadow or the extent's, whichever is smaller. */
 static bool emit_far(const ppmi_aim *aim, const ppmi_target *target, const ppmi_emitter *e,
                      const float u[4], ppmi_emission *emission)
 {
@@ -152,15 +152,15 @@ static bool emit_far(const ppmi_aim *aim, const ppmi_target *target, const ppmi_
     ppmi_vec3 weight;
     const ppmi_vec3 direction = vec3_neg(far_direction(aim, e, u, &weight));
     if (vec3_is_black(weight)) return false;
-    float shadow;
-    if (target) {
+    float shadow = ppmi_light_extent_shadow(extent, direction);
+    const float of_target = target ? (float)ppmi_target_shadow(target, direction) : INFINITY;
+    if (of_target < shadow) {
+        shadow = of_target;
         if (!ppmi_target_far_ray(target, extent, direction, u[0], u[1], &emission->ray)) {
             return false;
         }
-        shadow = (float)ppmi_target_shadow(target, direction);
     } else {
         emission->ray = ppmi_light_extent_ray(extent, direction, u[0], u[1]);
-        shadow = ppmi_light_extent_shadow(extent, direction);
     }
     emission->power = vec3_scale(weight, shadow);
     if (e->kind != PPMI_EMITTER_PUNCTUAL) {

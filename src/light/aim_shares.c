@@ -87,11 +87,12 @@ static double far_share(const ppmi_aim *aim, const ppmi_emitter *e, uint32_t par
         const double sum = ppmi_target_shadow(target, vec3(1, 0, 0)) +
                            ppmi_target_shadow(target, vec3(0, 1, 0)) +
                            ppmi_target_shadow(target, vec3(0, 0, 1));
-        return sum / 3.0 / (double)ppmi_light_extent_mean_shadow(extent);
+        return fmin(sum / 3.0 / (double)ppmi_light_extent_mean_shadow(extent), 1.0);
     }
     const ppmi_vec3 direction = aim->lights->scene->punctuals[e->triangle].direction;
-    return ppmi_target_shadow(target, direction) /
-           (double)ppmi_light_extent_shadow(extent, direction);
+    return fmin(ppmi_target_shadow(target, direction) /
+                    (double)ppmi_light_extent_shadow(extent, direction),
+                1.0);
 }
 
 static double share_of(const ppmi_aim *aim, uint32_t emitter, uint32_t part)

@@ -144,13 +144,15 @@ ppmi_vec3 ppmi_target_cone_sample(const ppmi_target *target, const ppmi_target_c
     return unit_float(way);
 }
 
-/* How far b reaches in a space where a target around center with semi-axes half is the unit ball.
- */
+/* How far b reaches at most in a space where a target around center with semi-axes half is the unit
+ * ball: as the ball or as the box around it there, whichever is smaller. */
 static double reach(const ppmi_target *b, ppmi_vec3 center, ppmi_vec3 half)
 {
     const double3 o = scaled_down(difference(b->center, center), half);
     const double3 size = scaled_down(to_double(b->half), half);
-    return sqrt(dot(o, o)) + fmax(size.x, fmax(size.y, size.z));
+    const double as_ball = sqrt(dot(o, o)) + fmax(size.x, fmax(size.y, size.z));
+    const double3 corner = {fabs(o.x) + size.x, fabs(o.y) + size.y, fabs(o.z) + size.z};
+    return fmin(as_ball, sqrt(dot(corner, corner)));
 }
 
 /* Their box's ellipsoid, enlarged until it holds them. No axis is so short that the scaled space

@@ -187,7 +187,8 @@ static uint32_t narrow_lobes(const eye_path *path, const eye_vertex *at)
  * brings which share of the light. */
 static float merge_area(const eye_path *path, const eye_branch *branch, const ppmi_bsdf *bsdf)
 {
-    const float radius_m = 2.0f * footprint(branch, bsdf);
+    const float given_m = path->settings->radius_m;
+    const float radius_m = given_m > 0.0f ? given_m : 2.0f * footprint(branch, bsdf);
     return path->settings->photons * PPMI_PI * radius_m * radius_m;
 }
 

@@ -17,6 +17,7 @@ typedef struct ppmi_eye_settings {
                              and arrives; beyond, one is drawn */
     bool samples_lights;  /* else photons bring all light that is met where they are gathered */
     float photons;        /* of a pass; 0: narrow lobes leave no light to them */
+    float radius_m;       /* that photons are gathered in; 0: by the pixel's footprint */
 } ppmi_eye_settings;
 
 /* Follows one camera path. Light that needs no photons (emission, the environment, light sampling)

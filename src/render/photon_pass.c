@@ -363,5 +363,6 @@ ppmi_eye_settings ppmi_eye_settings_of(const ppmi_job *job, const ppmi_photon_pa
         .media_depth = 2,
         .samples_lights = job->options->direct != PPM_DIRECT_PHOTONS,
         .photons = (float)photons->per_pass,
+        .radius_m = job->options->radius_m,
     };
 }

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "light/aim.h"
+#include "light/target.h"
 #include "support/near.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
@@ -222,6 +223,73 @@ static void an_even_sky_in_fog_sends_what_it_did(void **state)
     compare("fog");
 }
 
+/* The most that one photon brings, and how many leave. */
+static double most_power(const ppmi_aim *aim, uint32_t photons, uint32_t *out_left)
+{
+    double most = 0.0;
+    *out_left = 0;
+    for (uint32_t i = 0; i < photons; i++) {
+        const ppmi_sample4 sample = ppmi_sobol4(i, 0, 7);
+        float u[4];
+        for (int k = 0; k < 4; k++)
+            u[k] = ppmi_unit_float(sample.bits[k]);
+        const double pick = ppmi_sobol1(i, 0, 7);
+        ppmi_emission emission;
+        const bool is_there = aim ? ppmi_aim_emit(aim, 0.0f, pick, u, &emission)
+                                  : ppmi_lights_emit(world.lights, pick, u, &emission);
+        if (!is_there) continue;
+        most = fmax(most, (double)vec3_mean(emission.power));
+        ++*out_left;
+    }
+    return most;
+}
+
+/* All rays through the scene are the target's, which has half of the photons. */
+static void none_pass_by_the_scene_to_a_larger_target(void **state)
+{
+    (void)state;
+    enum { PHOTONS = 4096 };
+    const ppmi_target wide = {{0.0f, 0.5f, 0.0f}, {60.0f, 4.0f, 60.0f}};
+    const double halves[2] = {0.5, 0.5};
+    light_environment(test.scene, vec3_splat(1.0f), 0, 0.0f);
+    world_open(&world, &test);
+    ppmi_aim *aim = NULL;
+    assert_int_equal(ppmi_aim_create(test.context, world.lights, &wide, halves, 1, &aim),
+                     PPM_STATUS_OK);
+    uint32_t evenly, aimed;
+    const double even = most_power(NULL, PHOTONS, &evenly);
+    const double most = most_power(aim, PHOTONS, &aimed);
+    assert_int_equal(evenly, PHOTONS);
+    assert_near(aimed, 0.5 * PHOTONS, 2.0);
+    assert_true(most <= 2.02 * even);
+    ppmi_aim_destroy(aim);
+    world_close(&world);
+}
+
+/* A box's ellipsoid is at least sqrt(3) times as large as the box. */
+static void a_target_around_others_holds_them_and_little_else(void **state)
+{
+    (void)state;
+    const ppmi_target parts[2] = {{{-1.0f, 0.0f, 0.5f}, {1.0f, 0.2f, 3.0f}},
+                                  {{2.0f, 0.1f, 0.0f}, {2.0f, 0.3f, 0.1f}}};
+    for (uint32_t count = 1; count <= 2; count++) {
+        const ppmi_target all = ppmi_target_around(parts, count);
+        const float width = count == 1 ? 1.0f : 3.0f;
+        assert_true(all.half.x <= 1.7321f * width);
+        for (uint32_t i = 0; i < 4096; i++) {
+            const ppmi_sample4 sample = ppmi_sobol4(i, 0, 3);
+            const ppmi_vec3 way = ppmi_sample_cap(2.0f, ppmi_unit_float(sample.bits[0]),
+                                                  ppmi_unit_float(sample.bits[1]));
+            const ppmi_target *part = &parts[i % count];
+            const ppmi_vec3 rim = vec3_add(part->center, vec3_mul(part->half, way));
+            const ppmi_vec3 off = vec3_sub(rim, all.center);
+            const ppmi_vec3 scaled =
+                vec3(off.x / all.half.x, off.y / all.half.y, off.z / all.half.z);
+            assert_true(vec3_length(scaled) <= 1.0001f);
+        }
+    }
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -237,6 +305,8 @@ int main(void)
         WITH_SCENE(a_sun_sends_what_it_did),
         WITH_SCENE(a_sky_sends_what_it_did),
         WITH_SCENE(an_even_sky_in_fog_sends_what_it_did),
+        WITH_SCENE(none_pass_by_the_scene_to_a_larger_target),
+        cmocka_unit_test(a_target_around_others_holds_them_and_little_else),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

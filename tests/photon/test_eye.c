@@ -220,6 +220,29 @@ static void memory_that_is_out_is_reported(void **state)
     ppmi_alloc_fail_at(test.context, 0);
 }
 
+/* Photons of a pass times the area of the disk that they are gathered in: of a given radius it is
+ * that one's, or shares would be of other densities than there are. */
+static void narrow_lobes_share_by_the_disk_that_gathers(void **state)
+{
+    (void)state;
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    desc.metallic = 1.0f;
+    desc.roughness = 0.3f;
+    add_quad(test.scene, material_add(test.scene, &desc), vec3(-9, 0, -9), vec3(0, 0, 18),
+             vec3(18, 0, 0));
+    world_open(&world, &test);
+    ppmi_eye_settings settings = {.max_depth = 10, .photons = 1000.0f, .radius_m = 0.05f};
+    look(0, &settings);
+    assert_int_equal(points.count, 1);
+    assert_near(points.points[0].merge_area_m2, 1000.0 * 3.14159265 * 0.05 * 0.05, 1e-4);
+    settings.radius_m = 0.0f;
+    look(0, &settings);
+    assert_int_equal(points.count, 2);
+    const double radius_m = 2.0 * (double)points.points[1].footprint;
+    assert_near(points.points[1].merge_area_m2, 1000.0 * 3.14159265 * radius_m * radius_m, 1e-6);
+}
+
 int main(void)
 {
 #define WITH_SCENE(f) cmocka_unit_test_setup_teardown(f, open_scene, close_scene)
@@ -229,6 +252,7 @@ int main(void)
         WITH_SCENE(split_paths_have_the_mean_of_drawn_ones),
         WITH_SCENE(split_coats_have_the_mean_of_drawn_ones),
         WITH_SCENE(a_stack_of_sheets_does_not_overflow),
+        WITH_SCENE(narrow_lobes_share_by_the_disk_that_gathers),
         WITH_SCENE(memory_that_is_out_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
