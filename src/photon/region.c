@@ -387,9 +387,19 @@ static double open_measure(const ppmi_gather_region *region)
     return sum;
 }
 
-/* Whether the triangle holds the point: its height is 0 there. */
-static bool holds_center(const ppmi_region_triangle *t)
+/* How far the point may be off its triangle: corners and the point are rounded. */
+static double center_slack(const ppmi_gather_region *region)
 {
+    const double rounding = 4e-7 * (double)vec3_max_abs(region->center) / (double)region->radius;
+    return fmax(flatness, rounding);
+}
+
+/* Whether the triangle holds the point: its height is 0 there. Queries show large triangles that
+ * pass through the tangent plane far away, too. */
+static bool holds_center(const ppmi_region_triangle *t, const region_normal *n, double most_height)
+{
+    const double height = n->x * t->x[0] + n->y * t->y[0] + n->z * t->z[0];
+    if (fabs(height) > most_height * n->length) return false;
     int sides = 0;
     for (int i = 0; i < 3; i++) {
         const int k = (i + 1) % 3;
@@ -404,6 +414,7 @@ static bool holds_center(const ppmi_region_triangle *t)
 /* Walls, and what faces the same way as the point. */
 static bool classify(ppmi_gather_region *region)
 {
+    const double most_height = center_slack(region);
     bool is_flat = true, is_on_front = false, is_on_back = false;
     for (uint32_t i = 0; i < region->count; i++) {
         ppmi_region_triangle *t = &region->triangles[i];
@@ -414,7 +425,7 @@ static bool classify(ppmi_gather_region *region)
         t->is_front = n.z > 0.0;
         t->counts = fabs(n.z) >= (double)PPMI_REGION_COSINE * n.length && n.length > 0.0;
         if (high > (double)PPMI_REGION_ABOVE) add_wall_of(region, t);
-        if (t->counts && low < flatness && high > -flatness && holds_center(t)) {
+        if (t->counts && holds_center(t, &n, most_height)) {
             is_on_front = is_on_front || t->is_front;
             is_on_back = is_on_back || !t->is_front;
         }

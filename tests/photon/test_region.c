@@ -150,6 +150,17 @@ static void a_disk_on_a_wide_plane_is_whole(void **state)
     assert_near((double)corner.share, 0.25, 1e-6);
 }
 
+/* As a point on a ball or a segment finds it. */
+static void a_large_triangle_that_passes_by_is_not_the_surface(void **state)
+{
+    (void)state;
+    add_parallelogram(vec3(-5, -5, -3.75f), vec3(10, 0, 7.5f), vec3(0, 10, 0));
+    open_world();
+    const ppmi_gather_region region = region_at(vec3(0, 0.1f, 1), vec3(0, 0, 1), 0.05f);
+    assert_false(region.is_known);
+    assert_near((double)region.share, 1.0, 1e-6);
+}
+
 /* At walls of any thickness, below the plane and above, from close and from afar. */
 static void nothing_beyond_a_wall_is_held(void **state)
 {
@@ -269,6 +280,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_disk_on_a_wide_plane_is_whole, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(a_large_triangle_that_passes_by_is_not_the_surface,
+                                        open_scene, close_scene),
         cmocka_unit_test_setup_teardown(nothing_beyond_a_wall_is_held, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(the_share_is_that_of_the_places_that_are_held, open_scene,
                                         close_scene),
