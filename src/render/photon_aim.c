@@ -89,11 +89,9 @@ ppm_status ppmi_photon_aim_learn(const ppmi_job *job, ppmi_photon_aim *aim, ppmi
     }
     ppmi_free(job->context, sums);
     ppmi_photon_map_end_marks(job->context, map);
-    if (!has_memory) {
-        return ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
-    }
     const ppm_status status =
-        ppmi_guide_learn(job->context, aim->guide, aim->seen, aim->seen_count);
+        has_memory ? ppmi_guide_learn(job->context, aim->guide, aim->seen, aim->seen_count)
+                   : ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
     if (status != PPM_STATUS_OK) {
         aim->seen_count = seen_before; /* the round may be tried again */
         return status;

@@ -281,7 +281,7 @@ static void fog_that_only_scatters_vanishes_in_a_box_that_shines(void **state)
     const fog_check check = {.name = "box",
                              .expected = {2.0, 2.0, 2.0},
                              .width = 32,
-                             .passes = 6,
+                             .passes = 10,
                              .max_depth = 100,
                              .photons = 10000,
                              .radius_m = 0.04f,

@@ -94,8 +94,8 @@ static void things_under_a_sky(void **state)
     camera_perspective(scene, vec3(0, 1.5f, 2.5f), vec3(0, 0.4f, 0), 0.7f);
     const method_comparison how = {.width = 60,
                                    .path_passes = 16,
-                                   .passes = 6,
-                                   .photons = 10000,
+                                   .passes = 10,
+                                   .photons = 20000,
                                    .radius_m = 0.02f,
                                    .bias = edge_bias,
                                    .resolution = 0.05,
