@@ -35,7 +35,7 @@ BIAS, UNDECIDED = 0.04, 0.06
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--program", required=True)
-    parser.add_argument("--worlds", default="1-20", help="their numbers, as 7 or 1-100")
+    parser.add_argument("--worlds", default="1-20", help="their numbers, as 7, 1-100 or 1,3,5-9")
     parser.add_argument("--seeds", type=int, default=6, help="renders of each")
     parser.add_argument("--passes", type=int, default=48, help="by photons")
     parser.add_argument("--photons", default="32k", help="a pass")
@@ -119,13 +119,20 @@ def run_world(options, folder, number):
     return worst is None
 
 
+def numbers(text):
+    found = []
+    for part in text.split(","):
+        first, _, last = part.partition("-")
+        found += range(int(first), int(last or first) + 1)
+    return found
+
+
 def main():
     options = parse()
-    first, _, last = options.worlds.partition("-")
     folder = Path(options.out)
     folder.mkdir(parents=True, exist_ok=True)
     start, failed, done = time.monotonic(), [], 0
-    for number in range(int(first), int(last or first) + 1):
+    for number in numbers(options.worlds):
         if options.minutes and time.monotonic() - start > 60 * options.minutes:
             break
         done += 1
