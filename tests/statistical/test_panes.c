@@ -143,7 +143,7 @@ static const method_comparison how = {.width = 12,
                                       .radius_m = 0.1f,
                                       .bias = 0.012,
                                       .resolution = 0.03,
-                                      .seeds = TEST_EFFORT(8),
+                                      .seeds = TEST_EFFORT(8) + 2,
                                       .left_out = METHODS_OF_OTHER_RADII};
 
 static void methods_agree_under_lamps_of_all_kinds_behind_a_pane(void **state)
