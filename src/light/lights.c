@@ -126,7 +126,8 @@ static void add_triangles(ppmi_lights *lights, uint32_t instance, uint32_t primi
     const bool is_round = primitive->kind != PPM_PRIMITIVE_TRIANGLES;
     /* what shines inwards of something round and opaque stays there */
     const bool both = material->desc.double_sided != 0 &&
-                      (!is_round || material->has_alpha || material->desc.transmission > 0.0f);
+                      (!is_round || material->has_alpha || material->desc.transmission > 0.0f ||
+                       material->desc.diffuse_transmission > 0.0f);
     const bool moves =
         primitive->motion_steps > 1 || lights->scene->instances[instance].motion != NULL;
     for (uint32_t t = 0; t < primitive->element_count; t++) {

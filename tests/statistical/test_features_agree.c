@@ -183,9 +183,26 @@ static void a_box_of_layered_things_in_motion_under_lamps(void **state)
     methods_agree(test.scene, &how);
 }
 
+/* Half of their light begins inside, and comes out through the leaf. */
+static void round_leaves_that_shine_to_both_sides(void **state)
+{
+    (void)state;
+    add_box();
+    ppm_material_desc leaf = coloured(0.4f, 0.7f, 0.3f);
+    leaf.diffuse_transmission = 0.6f;
+    leaf.transmission_kind = PPM_TRANSMISSION_THIN;
+    leaf.roughness = 0.7f;
+    leaf.double_sided = 1;
+    vec3_store(leaf.emission, vec3_splat(1.0f));
+    add_round(PPM_PRIMITIVE_POINTS, &leaf, vec3(-0.3f, 0.1f, -0.3f), vec3(-0.3f, 0.3f, -0.4f));
+    methods_agree(test.scene, &how);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(round_leaves_that_shine_to_both_sides, open_scene,
+                                        close_scene),
         cmocka_unit_test_setup_teardown(a_box_of_layered_things_in_motion_under_lamps, open_scene,
                                         close_scene),
     };
