@@ -1,6 +1,7 @@
 /* Accessors: typed arrays over buffer views (glTF 2.0 specification, section 3.6.2). Every byte
  * that is read has been checked to lie in its buffer view. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_decoded.h"
@@ -197,7 +198,7 @@ static void convert_all(const conversion *c, const elements *from)
 
 /* Replaces the elements that a sparse accessor lists (section 3.6.2.3). */
 static ppm_status convert_sparse(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
-                                 const conversion *c, const char *place)
+                                 const conversion *c, size_t count, const char *place)
 {
     elements indices, values;
     const int32_t type = accessor->sparse_indices_type;
@@ -215,9 +216,9 @@ static ppm_status convert_sparse(ppmi_gltf_reader *reader, const ppmi_gltf_acces
     if (status != PPM_STATUS_OK) return status;
     for (size_t i = 0; i < accessor->sparse_count; ++i) {
         const uint32_t index = load_unsigned(indices.bytes + i * indices.stride, type);
-        if (index >= accessor->count) {
+        if (index >= count) { /* of the Draco stream, where there is one */
             return ppmi_gltf_invalid(reader, place, "sparse index %u is not below %zu",
-                                     (unsigned)index, accessor->count);
+                                     (unsigned)index, count);
         }
         convert(c, values.bytes + i * values.stride, index);
     }
@@ -239,10 +240,30 @@ static ppm_status convert_accessor(ppmi_gltf_reader *reader, const ppmi_gltf_acc
                                    const elements *base, const conversion *c, const char *place)
 {
     convert_all(c, base);
-    if (accessor->sparse_count > 0) return convert_sparse(reader, accessor, c, place);
+    if (accessor->sparse_count > 0) {
+        return convert_sparse(reader, accessor, c, base->count, place);
+    }
     /* the pages of the file that were read for it are not needed any more */
     if (base->count > LARGE_ACCESSOR) ppmi_gltf_forget_files(reader);
     return PPM_STATUS_OK;
+}
+
+bool ppmi_gltf_type_is_wrong(const ppmi_gltf_accessor *accessor, const ppmi_gltf_format *format,
+                             char fault[PPMI_GLTF_FAULT])
+{
+    const uint32_t components = accessor->component_count;
+    const int32_t type = accessor->component_type;
+    /* MAT2 is nowhere asked for, and is no VEC4 */
+    const bool is_shape_right = accessor->column_count == 1 || format->min_components > 4;
+    if (!is_shape_right || components < format->min_components ||
+        components > format->max_components) {
+        snprintf(fault, PPMI_GLTF_FAULT, "type: %u components do not suit this attribute",
+                 (unsigned)components);
+        return true;
+    }
+    if (component_size(type) > 0 && type != PPMI_GLTF_UNSIGNED_INT) return false;
+    snprintf(fault, PPMI_GLTF_FAULT, "componentType %d does not suit this attribute", (int)type);
+    return true;
 }
 
 ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const char *place,
@@ -255,26 +276,17 @@ ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const 
     *out_values = NULL;
     ppm_status status = name_accessor(reader, index, place, inner, &accessor);
     if (status != PPM_STATUS_OK) return status;
-    const uint32_t components = accessor->component_count;
-    /* MAT2 is nowhere asked for, and is no VEC4 */
-    const bool is_shape_right = accessor->column_count == 1 || format->min_components > 4;
-    if (!is_shape_right || components < format->min_components ||
-        components > format->max_components) {
-        return ppmi_gltf_invalid(reader, inner, "type: %u components do not suit this attribute",
-                                 (unsigned)components);
-    }
-    const int32_t type = accessor->component_type;
-    if (component_size(type) == 0 || type == PPMI_GLTF_UNSIGNED_INT) {
-        return ppmi_gltf_invalid(reader, inner, "componentType %d does not suit this attribute",
-                                 (int)type);
+    char fault[PPMI_GLTF_FAULT];
+    if (ppmi_gltf_type_is_wrong(accessor, format, fault)) {
+        return ppmi_gltf_invalid(reader, inner, "%s", fault);
     }
     status = find_base(reader, accessor, inner, &base);
     if (status != PPM_STATUS_OK) return status;
     const conversion c = {
-        .type = type,
-        .components = components,
+        .type = accessor->component_type,
+        .components = accessor->component_count,
         .out_components = format->out_components,
-        .rows = components / accessor->column_count,
+        .rows = accessor->component_count / accessor->column_count,
         .column = column_size(accessor),
         .normalized = accessor->normalized || format->integers_are_normalized,
         .floats = ppmi_alloc(reader->context, base.count, format->out_components * sizeof(float))};

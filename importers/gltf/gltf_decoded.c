@@ -2,6 +2,8 @@
  * meshes, skins and animations need not know how their bytes are stored. */
 #include "gltf/gltf_decoded.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "gltf/gltf_draco_shim.h"
@@ -27,6 +29,7 @@ typedef struct draco_stream {
     const ppmi_gltf_primitive *primitive;
     ppmi_gltf_draco *draco; /* NULL: not decoded, or broken */
     bool is_tried;
+    bool is_told; /* that its counts are not the accessors' */
 } draco_stream;
 
 /* Streams that are decoded together, each by a thread. What they hold is in memory at once. */
@@ -219,104 +222,88 @@ static bool put_component(double value, int32_t type, unsigned char *out)
     return true;
 }
 
-static ppm_status store_values(ppmi_gltf_reader *reader, const ppmi_gltf_accessor *accessor,
-                               const double *values, size_t count, const char *place,
+/* One accessor that is taken out of a stream. */
+typedef struct extraction {
+    ppmi_gltf_reader *reader;
+    const ppmi_gltf_draco *draco;
+    const ppmi_gltf_accessor *accessor;
+    bool is_asked_for; /* and not only beside the one that is */
+    char place[PPMI_GLTF_PLACE];
+} extraction;
+
+/* INPUT_INVALID; what nobody has asked for may be wrong without a message, since it may never be
+ * used. */
+static PPMI_PRINTF(2, 3) ppm_status decline(const extraction *e, const char *format, ...)
+{
+    char reason[160];
+    va_list arguments;
+    if (!e->is_asked_for) return PPM_STATUS_INPUT_INVALID;
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    return ppmi_gltf_invalid(e->reader, e->place, "%s", reason);
+}
+
+static ppm_status store_values(const extraction *e, const double *values, size_t count,
                                draco_source *source)
 {
-    const size_t size = type_size(accessor->component_type);
-    const size_t total = count * accessor->component_count;
-    source->bytes = ppmi_alloc(reader->context, total, size);
+    const int32_t type = e->accessor->component_type;
+    const size_t size = type_size(type), total = count * e->accessor->component_count;
+    source->bytes = ppmi_alloc(e->reader->context, total, size);
     source->count = count;
-    if (!source->bytes) return ppmi_gltf_out_of_memory(reader, place);
+    if (!source->bytes) return ppmi_gltf_out_of_memory(e->reader, e->place);
     for (size_t i = 0; i < total; ++i) {
-        if (put_component(values[i], accessor->component_type, source->bytes + i * size)) continue;
-        ppmi_free(reader->context, source->bytes);
+        if (put_component(values[i], type, source->bytes + i * size)) continue;
+        ppmi_free(e->reader->context, source->bytes);
         source->bytes = NULL;
-        return ppmi_gltf_invalid(reader, place,
-                                 "%g in the Draco stream does not fit componentType %d", values[i],
-                                 (int)accessor->component_type);
+        return decline(e, "%g in the Draco stream does not fit componentType %d", values[i],
+                       (int)type);
     }
     return PPM_STATUS_OK;
 }
 
-static ppm_status read_values(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco, int32_t id,
-                              const ppmi_gltf_accessor *accessor, const char *place, double *values)
+static ppm_status read_draco_indices(const extraction *e, size_t count, double *values)
 {
-    const uint32_t points = ppmi_gltf_draco_point_count(draco);
-    if (points != accessor->count) {
-        return ppmi_gltf_invalid(reader, place,
-                                 "%u vertices in the Draco stream, the accessor has %zu",
-                                 (unsigned)points, accessor->count);
-    }
-    if (!ppmi_gltf_draco_values(draco, id, accessor->component_count, values)) {
-        return ppmi_gltf_invalid(reader, place, "attribute %d of the Draco stream does not suit it",
-                                 (int)id);
-    }
-    return PPM_STATUS_OK;
-}
-
-static ppm_status read_draco_indices(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco,
-                                     const ppmi_gltf_primitive *primitive,
-                                     const ppmi_gltf_accessor *accessor, const char *place,
-                                     double *values)
-{
-    const size_t count = 3 * (size_t)ppmi_gltf_draco_face_count(draco);
-    if (primitive->mode == PPMI_GLTF_TRIANGLES && count != accessor->count) {
-        return ppmi_gltf_invalid(reader, place,
-                                 "%zu indices in the Draco stream, the accessor has %zu", count,
-                                 accessor->count);
-    }
-    uint32_t *indices = ppmi_alloc(reader->context, count, sizeof *indices);
-    if (!indices) return ppmi_gltf_out_of_memory(reader, place);
-    ppmi_gltf_draco_indices(draco, indices);
+    uint32_t *indices = ppmi_alloc(e->reader->context, count, sizeof *indices);
+    if (!indices) return ppmi_gltf_out_of_memory(e->reader, e->place);
+    ppmi_gltf_draco_indices(e->draco, indices);
     for (size_t i = 0; i < count; ++i) {
         values[i] = indices[i];
     }
-    ppmi_free(reader->context, indices);
+    ppmi_free(e->reader->context, indices);
     return PPM_STATUS_OK;
 }
 
-/* One accessor out of the stream. */
-static ppm_status extract(ppmi_gltf_reader *reader, const ppmi_gltf_draco *draco, int32_t index,
-                          const char *place)
+static ppm_status extract(const extraction *e, draco_source *source)
 {
-    draco_source *source = &reader->decoded->sources[index];
-    const ppmi_gltf_accessor *accessor = &reader->document->accessors[index];
-    char inner[PPMI_GLTF_PLACE];
-    ppmi_gltf_place(inner, "%s (accessors[%d])", place, (int)index);
-    if (accessor->column_count != 1 || accessor->component_count > 4) {
-        return ppmi_gltf_invalid(reader, inner, "matrices cannot be in a Draco stream");
+    const uint32_t components = e->accessor->component_count;
+    if (e->accessor->column_count != 1 || components > 4) {
+        return decline(e, "matrices cannot be in a Draco stream");
     }
     const bool is_index = source->id == DRACO_INDICES;
-    if (is_index && accessor->component_count != 1) {
-        return ppmi_gltf_invalid(reader, inner, "indices must be unsigned scalars");
+    if (is_index && components != 1) return decline(e, "indices must be unsigned scalars");
+    const size_t count = is_index ? 3 * (size_t)ppmi_gltf_draco_face_count(e->draco)
+                                  : ppmi_gltf_draco_point_count(e->draco);
+    if (count == 0) return decline(e, "the Draco stream is empty");
+    double *values = ppmi_alloc(e->reader->context, count * components, sizeof *values);
+    if (!values) return ppmi_gltf_out_of_memory(e->reader, e->place);
+    ppm_status status = PPM_STATUS_OK;
+    if (is_index) {
+        status = read_draco_indices(e, count, values);
+    } else if (!ppmi_gltf_draco_values(e->draco, source->id, components, values)) {
+        status = decline(e, "attribute %d of the Draco stream does not suit it", (int)source->id);
     }
-    const size_t count = is_index ? 3 * (size_t)ppmi_gltf_draco_face_count(draco)
-                                  : ppmi_gltf_draco_point_count(draco);
-    if (count == 0) return ppmi_gltf_invalid(reader, inner, "the Draco stream is empty");
-    double *values = ppmi_alloc(reader->context, count * accessor->component_count, sizeof *values);
-    if (!values) return ppmi_gltf_out_of_memory(reader, inner);
-    ppm_status status =
-        is_index ? read_draco_indices(reader, draco, source->primitive, accessor, inner, values)
-                 : read_values(reader, draco, source->id, accessor, inner, values);
-    if (status == PPM_STATUS_OK) {
-        status = store_values(reader, accessor, values, count, inner, source);
-    }
-    ppmi_free(reader->context, values);
+    if (status == PPM_STATUS_OK) status = store_values(e, values, count, source);
+    ppmi_free(e->reader->context, values);
     return status;
 }
 
-/* How many triangles the primitive's indices speak of. */
-static uint32_t count_faces(const ppmi_gltf_document *document,
-                            const ppmi_gltf_primitive *primitive, size_t stream_length)
+/* The most triangles that a stream may hold. The accessors have no say: early encoders wrote the
+ * counts of the mesh that they had compressed. */
+static uint32_t most_faces(size_t stream_length)
 {
-    const bool has_indices =
-        primitive->indices >= 0 && (size_t)primitive->indices < document->accessor_count;
-    size_t faces = has_indices ? document->accessors[primitive->indices].count : 0;
-    if (primitive->mode == PPMI_GLTF_TRIANGLES) faces /= 3;
     const size_t most = MAX_SMALL_FACES + MAX_FACES_PER_BYTE * stream_length;
-    faces = faces < most ? faces : most;
-    return faces < UINT32_MAX / 3 ? (uint32_t)faces : UINT32_MAX / 3;
+    return most < UINT32_MAX / 3 ? (uint32_t)most : UINT32_MAX / 3;
 }
 
 static bool can_be_draco(const ppmi_gltf_primitive *primitive)
@@ -338,8 +325,7 @@ static ppm_status decode_stream(ppmi_gltf_reader *reader, const ppmi_gltf_primit
                                  "mode %d: Draco streams hold triangles or strips of them",
                                  (int)primitive->mode);
     }
-    status = ppmi_gltf_draco_create(stream, length,
-                                    count_faces(reader->document, primitive, length), &reason, out);
+    status = ppmi_gltf_draco_create(stream, length, most_faces(length), &reason, out);
     if (status == PPM_STATUS_OUT_OF_MEMORY) return ppmi_gltf_out_of_memory(reader, place);
     if (status == PPM_STATUS_OK) return status;
     return ppmi_fail(reader->context, status, "%s: %s: %s", reader->path, place, reason);
@@ -379,8 +365,8 @@ static void try_stream(const ppmi_gltf_reader *reader, draco_stream *stream)
     if (stream->is_tried) return;
     stream->is_tried = true;
     if (!can_be_draco(primitive) || !find_stream(reader, primitive, &bytes, &length)) return;
-    const uint32_t faces = count_faces(reader->document, primitive, length);
-    const ppm_status status = ppmi_gltf_draco_create(bytes, length, faces, &reason, &stream->draco);
+    const ppm_status status =
+        ppmi_gltf_draco_create(bytes, length, most_faces(length), &reason, &stream->draco);
     if (status != PPM_STATUS_OK) stream->draco = NULL;
 }
 
@@ -416,19 +402,56 @@ static ppm_status take_stream(ppmi_gltf_reader *reader, size_t index, const char
     return PPM_STATUS_OK;
 }
 
-/* All accessors of the stream at once: decoding it is what takes time. */
-static ppm_status extract_all(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
-                              const ppmi_gltf_draco *draco, const char *place)
+/* The accessor of an attribute, or behind these of the indices; -1 where it is not in the stream.
+ */
+static int32_t accessor_in_stream(const ppmi_gltf_reader *reader,
+                                  const ppmi_gltf_primitive *primitive, uint32_t i)
 {
+    const int32_t accessor =
+        i < primitive->attribute_count ? primitive->attributes[i].accessor : primitive->indices;
+    if (!has_no_view(reader->document, accessor)) return -1;
+    return reader->decoded->sources[accessor].primitive == primitive ? accessor : -1;
+}
+
+/* Says once for a stream that it holds another number of elements than an accessor tells. */
+static void tell_counts(ppmi_gltf_reader *reader, draco_stream *stream,
+                        const ppmi_gltf_draco *draco, const char *place)
+{
+    const ppmi_gltf_primitive *primitive = stream->primitive;
+    for (uint32_t i = 0; i <= primitive->attribute_count && !stream->is_told; ++i) {
+        const int32_t index = accessor_in_stream(reader, primitive, i);
+        const bool is_index = i == primitive->attribute_count;
+        /* the indices of a strip, of which the stream has a list, are of another number */
+        if (index < 0 || (is_index && primitive->mode != PPMI_GLTF_TRIANGLES)) continue;
+        const size_t told = reader->document->accessors[index].count;
+        const size_t count = is_index ? 3 * (size_t)ppmi_gltf_draco_face_count(draco)
+                                      : ppmi_gltf_draco_point_count(draco);
+        if (count == told) continue;
+        stream->is_told = true;
+        ppmi_gltf_warn(reader, place, "%zu %s in the Draco stream are used, accessors[%d] has %zu",
+                       count, is_index ? "indices" : "vertices", (int)index, told);
+        ppmi_gltf_note_feature(reader, "counts of accessors with Draco streams",
+                               PPM_FEATURE_IGNORED, "the streams hold other numbers of elements");
+    }
+}
+
+/* All accessors of the stream at once: decoding it is what takes time. */
+static ppm_status extract_all(ppmi_gltf_reader *reader, draco_stream *stream,
+                              const ppmi_gltf_draco *draco, int32_t asked_for, const char *place)
+{
+    const ppmi_gltf_primitive *primitive = stream->primitive;
     ppm_status status = PPM_STATUS_OK;
+    tell_counts(reader, stream, draco, place);
     for (uint32_t i = 0; i <= primitive->attribute_count && status == PPM_STATUS_OK; ++i) {
-        const int32_t accessor =
-            i < primitive->attribute_count ? primitive->attributes[i].accessor : primitive->indices;
-        if (!has_no_view(reader->document, accessor)) continue;
-        const draco_source *source = &reader->decoded->sources[accessor];
-        if (source->primitive == primitive && !source->bytes) {
-            status = extract(reader, draco, accessor, place);
-        }
+        const int32_t index = accessor_in_stream(reader, primitive, i);
+        if (index < 0 || reader->decoded->sources[index].bytes) continue;
+        extraction e = {.reader = reader,
+                        .draco = draco,
+                        .accessor = &reader->document->accessors[index],
+                        .is_asked_for = index == asked_for};
+        ppmi_gltf_place(e.place, "%s (accessors[%d])", place, (int)index);
+        status = extract(&e, &reader->decoded->sources[index]);
+        if (status == PPM_STATUS_INPUT_INVALID && !e.is_asked_for) status = PPM_STATUS_OK;
     }
     return status;
 }
@@ -447,7 +470,8 @@ ppm_status ppmi_gltf_decoded_accessor(ppmi_gltf_reader *reader, int32_t accessor
         ppmi_gltf_draco *draco = NULL;
         status = take_stream(reader, source->stream, inner, &draco);
         if (status == PPM_STATUS_OK) {
-            status = extract_all(reader, source->primitive, draco, inner);
+            status = extract_all(reader, &reader->decoded->streams[source->stream], draco, accessor,
+                                 inner);
         }
         ppmi_gltf_draco_destroy(draco);
     }

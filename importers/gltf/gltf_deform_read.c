@@ -288,9 +288,7 @@ ppm_status ppmi_gltf_deform_read(ppmi_gltf_reader *reader, ppmi_gltf_deform *def
                                  ppmi_gltf_geometry *g)
 {
     ppmi_gltf_deform_primitive *p = &deform->primitives[deform->primitive_count++];
-    const int32_t position =
-        ppmi_gltf_find_attribute(primitive->attributes, primitive->attribute_count, "POSITION");
-    const source s = {reader, primitive, place, g, reader->document->accessors[position].count};
+    const source s = {reader, primitive, place, g, g->source_count};
     p->vertex_count = (uint32_t)g->vertex_count;
     ppm_status status = read_targets(&s, p);
     if (status == PPM_STATUS_OK && deform->joint_count > 0) {

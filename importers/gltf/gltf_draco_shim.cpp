@@ -1,7 +1,7 @@
 // The only file that sees Draco.
 //
 // Draco makes room for as many triangles and vertices as a stream claims to have before it reads
-// them. So the claim is read here first and compared with what the file's accessors say.
+// them. So the claim is read here first and compared with what its length allows.
 #include "gltf/gltf_draco_shim.h"
 
 #include <exception>
@@ -86,8 +86,7 @@ ppm_status decode(const char *bytes, size_t length, uint32_t max_faces, const ch
     // every vertex belongs to a triangle, but for those of a stream without connectivity
     const bool is_too_much = claim.faces > max_faces || claim.vertices / 3 > max_faces;
     if (is_too_much) {
-        *out_reason =
-            "the Draco stream claims more triangles than the indices' accessor or its length allow";
+        *out_reason = "the Draco stream claims more triangles than its length allows";
         return PPM_STATUS_INPUT_INVALID;
     }
     draco::DecoderBuffer buffer;

@@ -14,7 +14,8 @@ typedef struct ppmi_gltf_geometry {
     bool is_taken; /* the first three belong to what deforms the mesh */
     float *uvs[PPM_MAX_UV_SETS];
     uint32_t *indices;
-    uint32_t *sources; /* of each vertex: its place in the accessors; NULL: the same */
+    size_t source_count; /* vertices in the accessors, or the Draco stream */
+    uint32_t *sources;   /* of each vertex: its place among these; NULL: the same */
     ppm_material_id material;
 } ppmi_gltf_geometry;
 
@@ -35,6 +36,9 @@ ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const 
 
 /* That radius, from the vertices of all primitives of a mesh. */
 float ppmi_gltf_line_radius(const ppmi_gltf_geometry *primitives, size_t count);
+
+/* The set of coordinates that the material's tangents belong to; -1 where it needs none. */
+int32_t ppmi_gltf_tangent_set(const ppmi_gltf_reader *reader, int32_t material);
 
 /* Computes tangents for triangles that have normals, coordinates and no tangents, where a material
  * (its number in the file) has a normal map. Vertices may be added. */

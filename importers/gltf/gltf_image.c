@@ -93,7 +93,8 @@ static const char *label_of(const ppmi_gltf_reader *reader, ppmi_gltf_span name,
 /* Where the image is: its file, or the bytes of it. */
 static void find(ppmi_gltf_reader *reader, size_t index, int32_t role, source *s)
 {
-    *s = (source){.desc = {.size = sizeof s->desc, .role = role}};
+    *s =
+        (source){.desc = {.size = sizeof s->desc, .role = role, .strict = reader->options->strict}};
     ppmi_gltf_place(s->place, "images[%zu]", index);
     snprintf(s->name, sizeof s->name, "%s: %s", reader->path, s->place);
     s->desc.name = s->name;
@@ -283,6 +284,10 @@ static ppm_status use_sources(ppmi_gltf_reader *reader, const ppmi_gltf_texture 
         if (reader->is_looking_at_textures) break; /* the others only if the first fails */
     }
     if (!is_any) ppmi_gltf_warn(reader, place, "left out: the texture names no image");
+    if (*out_id == 0 && !reader->is_looking_at_textures && status == PPM_STATUS_OK) {
+        ppmi_gltf_note_feature(reader, "textures without an image that can be read",
+                               PPM_FEATURE_IGNORED, place);
+    }
     return status;
 }
 
@@ -300,6 +305,7 @@ ppm_status ppmi_gltf_use_texture(ppmi_gltf_reader *reader, const ppmi_gltf_textu
     const ppmi_gltf_texture *texture = &reader->document->textures[info->texture];
     ppm_image_id image;
     ppmi_gltf_place(inner, "textures[%d]", (int)info->texture);
+    if (reader->is_looking_at_textures) reader->uv_sets_seen |= UINT32_C(1) << info->uv_set;
     const ppm_status status = use_sources(reader, texture, role, inner, &image);
     if (status != PPM_STATUS_OK || image == 0) return status;
     out_texture->image = image;

@@ -203,6 +203,20 @@ void ppmi_gltf_visit_material(ppmi_gltf_reader *reader, int32_t material)
     reader->tally = tally;
 }
 
+uint32_t ppmi_gltf_material_uv_sets(ppmi_gltf_reader *reader, int32_t material)
+{
+    char reason[PPMI_GLTF_PLACE];
+    const bool was_looking = reader->is_looking_at_textures;
+    if (!ppmi_gltf_is_usable(reader, PPMI_GLTF_MATERIALS, material, reason, sizeof reason)) {
+        return 0;
+    }
+    reader->uv_sets_seen = 0;
+    reader->is_looking_at_textures = true;
+    ppmi_gltf_visit_material(reader, material);
+    reader->is_looking_at_textures = was_looking;
+    return reader->uv_sets_seen;
+}
+
 /* The specification's material for primitives that name none: white metal, rough. */
 static ppm_status use_default(ppmi_gltf_reader *reader, ppm_material_id *out_id)
 {

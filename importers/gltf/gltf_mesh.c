@@ -47,6 +47,37 @@ static ppm_status read_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     return ppmi_gltf_invalid(reader, inner, "%zu elements, POSITION has %zu", count, vertex_count);
 }
 
+/* Whether the primitive's material has a use for TANGENT or TEXCOORD_n. */
+static bool is_used(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                    const char *name)
+{
+    int set;
+    const int32_t material = ppmi_gltf_variant_material(reader, primitive);
+    if (sscanf(name, "TEXCOORD_%1d", &set) != 1)
+        return ppmi_gltf_tangent_set(reader, material) >= 0;
+    return ppmi_gltf_material_uv_sets(reader, material) >> set & 1;
+}
+
+/* TANGENT or TEXCOORD_n. Where it is of a wrong type and nothing uses it, it is left out. */
+static ppm_status read_useful(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                              const char *name, const ppmi_gltf_format *format, const char *place,
+                              size_t vertex_count, float **out)
+{
+    char inner[PPMI_GLTF_PLACE], fault[PPMI_GLTF_FAULT];
+    const int32_t accessor =
+        ppmi_gltf_find_attribute(primitive->attributes, primitive->attribute_count, name);
+    if (ppmi_gltf_is_usable(reader, PPMI_GLTF_ACCESSORS, accessor, inner, sizeof inner) &&
+        ppmi_gltf_type_is_wrong(&reader->document->accessors[accessor], format, fault) &&
+        !is_used(reader, primitive, name)) {
+        ppmi_gltf_place(inner, "%s.attributes.%s (accessors[%d])", place, name, (int)accessor);
+        ppmi_gltf_warn(reader, inner, "%s: left out, since nothing uses it", fault);
+        ppmi_gltf_note_feature(reader, "unused attributes of a wrong type", PPM_FEATURE_IGNORED,
+                               "left out");
+        return PPM_STATUS_OK;
+    }
+    return read_attribute(reader, primitive, name, format, place, vertex_count, out);
+}
+
 static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                   const char *place, ppmi_gltf_geometry *g)
 {
@@ -56,7 +87,7 @@ static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_prim
         read_attribute(reader, primitive, "NORMAL", &vec3_format, place, count, &g->normals);
     if (status == PPM_STATUS_OK && g->normals) { /* without normals tangents must be ignored */
         status =
-            read_attribute(reader, primitive, "TANGENT", &vec4_format, place, count, &g->tangents);
+            read_useful(reader, primitive, "TANGENT", &vec4_format, place, count, &g->tangents);
     }
     if (status == PPM_STATUS_OK) {
         status =
@@ -64,7 +95,7 @@ static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_prim
     }
     for (int i = 0; i < PPM_MAX_UV_SETS && status == PPM_STATUS_OK; ++i) {
         snprintf(name, sizeof name, "TEXCOORD_%d", i);
-        status = read_attribute(reader, primitive, name, &vec2_format, place, count, &g->uvs[i]);
+        status = read_useful(reader, primitive, name, &vec2_format, place, count, &g->uvs[i]);
     }
     return status;
 }
@@ -163,6 +194,7 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
     ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
                                               &g->vertex_count);
     if (status != PPM_STATUS_OK) return status;
+    g->source_count = g->vertex_count;
     if (g->vertex_count > UINT32_MAX) {
         return ppmi_gltf_invalid(reader, inner, "more than 2^32 vertices");
     }

@@ -74,6 +74,7 @@ struct ppmi_gltf_reader {
     bool *empty_meshes;               /* one per mesh: nothing in it can be drawn */
     ppm_material_id default_material; /* 0: not added yet */
     bool is_looking_at_textures;      /* textures are noted, not loaded (gltf_image_batch.c) */
+    uint32_t uv_sets_seen;            /* bit n: a texture that was looked at uses TEXCOORD_n */
     size_t zero_elements;             /* of accessors that have no bytes in the file */
     int32_t chosen_scene;             /* by the options or the file; may not exist */
     uint32_t variant;                 /* that is shown, from 1; 0: the plain materials */
@@ -154,6 +155,12 @@ typedef struct ppmi_gltf_format {
     bool integers_are_normalized;            /* even where the accessor does not say so */
 } ppmi_gltf_format;
 
+enum { PPMI_GLTF_FAULT = 80 }; /* bytes for what is wrong with an accessor */
+
+/* Whether an accessor's type or componentType is none that the format allows; fault says which. */
+bool ppmi_gltf_type_is_wrong(const ppmi_gltf_accessor *accessor, const ppmi_gltf_format *format,
+                             char fault[PPMI_GLTF_FAULT]);
+
 /* Reads an accessor as floats, count * format->out_components of them; matrices, where a format
  * asks for 9 or 16 components, column by column and tightly packed. *out_values is the caller's to
  * free, NULL on failure. */
@@ -200,6 +207,9 @@ ppm_status ppmi_gltf_read_xmp(ppmi_gltf_reader *reader);
 
 /* Goes through the textures of a material, silently and without adding anything. */
 void ppmi_gltf_visit_material(ppmi_gltf_reader *reader, int32_t material);
+
+/* The sets of coordinates that the textures of a material use: bit n for TEXCOORD_n. */
+uint32_t ppmi_gltf_material_uv_sets(ppmi_gltf_reader *reader, int32_t material);
 
 /* gltf_image_batch.c: adds the images that the materials of the chosen scene use, in parallel. What
  * it does not foresee is added at its first use. */

@@ -5,8 +5,7 @@
 #include "gltf/gltf_geometry.h"
 #include "tangent/tangent.h"
 
-/* The set of coordinates that the material's tangents belong to, or -1. */
-static int32_t find_uv_set(const ppmi_gltf_reader *reader, int32_t material)
+int32_t ppmi_gltf_tangent_set(const ppmi_gltf_reader *reader, int32_t material)
 {
     const ppmi_gltf_document *document = reader->document;
     if (material < 0 || (size_t)material >= document->material_count) return -1;
@@ -53,7 +52,7 @@ static bool take_vertices(ppm_context *context, ppmi_gltf_geometry *g,
 ppm_status ppmi_gltf_add_tangents(ppmi_gltf_reader *reader, int32_t material, const char *place,
                                   ppmi_gltf_geometry *g)
 {
-    const int32_t set = find_uv_set(reader, material);
+    const int32_t set = ppmi_gltf_tangent_set(reader, material);
     if (set < 0 || g->kind != PPM_PRIMITIVE_TRIANGLES || g->tangents || !g->normals ||
         !g->uvs[set]) {
         return PPM_STATUS_OK;

@@ -67,6 +67,8 @@ typedef struct ppm_image_desc {
     uint32_t channels;  /* of pixels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA */
     const char *label;  /* what its file calls it, or NULL: without a path, patterns of texture
                            spaces  (color.h) and file rules are about it, or about name without it */
+    int32_t strict;     /* 1: a file that is damaged fails (INPUT_INVALID) even where all its pixels
+                           are there; 0: that is warned about */
 } ppm_image_desc;
 
 /* Decodes and keeps an image. PPM_IMAGE_COLOR pixels of type F32 are taken as linear Rec.709, those

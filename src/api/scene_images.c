@@ -209,6 +209,11 @@ static ppm_status decode_image(ppm_context *context, const ppm_color *color,
     ppmi_pixels pixels = {0};
     ppm_status status = load_pixels(context, desc, name, &pixels);
     if (status != PPM_STATUS_OK) return status;
+    if (pixels.is_cut && desc->strict) {
+        ppmi_imageio_pixels_free(context, &pixels);
+        return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: strict: the file is cut off",
+                         name);
+    }
 
     ppmi_image image = {.width = pixels.width, .height = pixels.height};
     if (pixels.f32) {

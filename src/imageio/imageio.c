@@ -271,9 +271,47 @@ static ppm_status decode(ppm_context *context, ppmi_oiio_reader *reader, const c
     return PPM_STATUS_OK;
 }
 
+static ppm_status open_and_decode(ppm_context *context, const ppmi_image_format *format,
+                                  const void *bytes, size_t byte_count, const char *name,
+                                  ppmi_pixels *out_pixels)
+{
+    ppmi_oiio_reader *reader = NULL;
+    ppmi_oiio_info info;
+    ppm_status status =
+        ppmi_oiio_open(context, format->oiio, bytes, byte_count, name, &reader, &info);
+    if (status != PPM_STATUS_OK) return status;
+    status = decode(context, reader, name, format, byte_count, &info, out_pixels);
+    ppmi_oiio_close(reader);
+    return status;
+}
+
+/* The decoder gets the end that the file lacks. */
+static ppm_status read_cut_png(ppm_context *context, const ppmi_image_format *format,
+                               const void *bytes, size_t byte_count, const char *name,
+                               ppmi_pixels *out_pixels)
+{
+    uint8_t *const whole = ppmi_alloc(context, byte_count + PPMI_PNG_END_BYTES, 1);
+    if (!whole) {
+        return ppmi_fail(context, PPM_STATUS_OUT_OF_MEMORY, "%s: no memory to read it", name);
+    }
+    memcpy(whole, bytes, byte_count);
+    memcpy(whole + byte_count, ppmi_imageio_png_end, PPMI_PNG_END_BYTES);
+    const ppm_status status =
+        open_and_decode(context, format, whole, byte_count + PPMI_PNG_END_BYTES, name, out_pixels);
+    ppmi_free(context, whole);
+    if (status != PPM_STATUS_OK) return status;
+    out_pixels->is_cut = true;
+    ppmi_log(context, PPM_LOG_WARNING,
+             "%s: the PNG file ends at byte %zu without the chunk that says so (IEND); its pixels "
+             "are all there",
+             name, byte_count);
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, size_t byte_count,
                                     const char *name, ppmi_pixels *out_pixels)
 {
+    size_t cut_at = 0;
     if (!bytes || byte_count == 0) {
         return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: no image data", name);
     }
@@ -288,20 +326,15 @@ ppm_status ppmi_imageio_read_memory(ppm_context *context, const void *bytes, siz
     }
     ppm_status status = PPM_STATUS_OK;
     if (strcmp(format->oiio, "png") == 0) {
-        status = ppmi_imageio_png_check(context, bytes, byte_count, name);
+        status = ppmi_imageio_png_check(context, bytes, byte_count, name, &cut_at);
     } else if (strcmp(format->oiio, "heif") == 0) {
         status = ppmi_imageio_heif_check(context, bytes, byte_count, name);
     } else if (strcmp(format->oiio, "openexr") == 0) {
         status = ppmi_imageio_exr_check(context, bytes, byte_count, name);
     }
     if (status != PPM_STATUS_OK) return status;
-    ppmi_oiio_reader *reader = NULL;
-    ppmi_oiio_info info;
-    status = ppmi_oiio_open(context, format->oiio, bytes, byte_count, name, &reader, &info);
-    if (status != PPM_STATUS_OK) return status;
-    status = decode(context, reader, name, format, byte_count, &info, out_pixels);
-    ppmi_oiio_close(reader);
-    return status;
+    if (cut_at > 0) return read_cut_png(context, format, bytes, cut_at, name, out_pixels);
+    return open_and_decode(context, format, bytes, byte_count, name, out_pixels);
 }
 
 ppm_status ppmi_imageio_read_file(ppm_context *context, const char *path, const char *name,

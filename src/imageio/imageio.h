@@ -27,6 +27,7 @@ typedef struct ppmi_pixels {
     bool has_chromaticities;
     float chromaticities[8];
     char color_space[64];
+    bool is_cut; /* the file lacks its end, though no pixel: a warning has told it */
 } ppmi_pixels;
 
 /* Decodes a file. name is used in messages. Files of more than 4 channels give the first four, in

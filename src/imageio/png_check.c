@@ -81,18 +81,32 @@ static const char *chunk_fault(const uint8_t *chunk, uint32_t length, bool is_fi
     return NULL;
 }
 
-/* Walks the chunks up to the last. Returns what is wrong at *out_offset, or NULL. */
-static const char *file_fault(const uint8_t *file, size_t byte_count, size_t *out_offset)
+/* Whether the chunk that the rest of the file does not hold is one that no pixel needs: IEND, or
+ * one of text and the like before it. Less than a type is the beginning of anything. */
+static bool cut_chunk_is_needless(const uint8_t *chunk, size_t byte_count)
+{
+    if (byte_count < 8) return true;
+    return memcmp(chunk + 4, "IEND", 4) == 0 ||
+           (type_is_valid(chunk + 4) && !is_critical(chunk + 4));
+}
+
+/* Walks the chunks up to the last. Returns what is wrong at *out_offset, or NULL; *out_is_cut is
+ * set where all pixels are there, and nothing is wrong but that the file ends at *out_offset. */
+static const char *file_fault(const uint8_t *file, size_t byte_count, size_t *out_offset,
+                              bool *out_is_cut)
 {
     bool has_pixels = false;
     size_t offset = SIGNATURE_BYTES;
     for (;;) {
         *out_offset = offset;
-        if (byte_count - offset < CHUNK_OVERHEAD) return "the file ends early";
         const uint8_t *const chunk = file + offset;
-        const uint32_t length = big_endian(chunk);
-        if (length > byte_count - offset - CHUNK_OVERHEAD) {
-            return "a chunk is longer than the rest of the file";
+        const size_t left = byte_count - offset;
+        const uint32_t length = left < 4 ? 0 : big_endian(chunk);
+        if (left < CHUNK_OVERHEAD || length > left - CHUNK_OVERHEAD) {
+            *out_is_cut = has_pixels && cut_chunk_is_needless(chunk, left);
+            if (*out_is_cut) return NULL;
+            return left < CHUNK_OVERHEAD ? "the file ends early"
+                                         : "a chunk is longer than the rest of the file";
         }
         const char *const fault = chunk_fault(chunk, length, offset == SIGNATURE_BYTES);
         if (fault) return fault;
@@ -102,11 +116,16 @@ static const char *file_fault(const uint8_t *file, size_t byte_count, size_t *ou
     }
 }
 
+const uint8_t ppmi_imageio_png_end[PPMI_PNG_END_BYTES] = {0,   0,   0,    0,    'I',  'E',
+                                                          'N', 'D', 0xae, 0x42, 0x60, 0x82};
+
 ppm_status ppmi_imageio_png_check(ppm_context *context, const void *bytes, size_t byte_count,
-                                  const char *name)
+                                  const char *name, size_t *out_cut_at)
 {
     size_t offset = 0;
-    const char *const fault = file_fault(bytes, byte_count, &offset);
+    bool is_cut = false;
+    const char *const fault = file_fault(bytes, byte_count, &offset, &is_cut);
+    *out_cut_at = is_cut ? offset : 0;
     if (!fault) return PPM_STATUS_OK;
     return ppmi_fail(context, PPM_STATUS_INPUT_INVALID, "%s: broken PNG at byte %zu: %s", name,
                      offset, fault);

@@ -8,6 +8,7 @@
 #include "imageio/format.h"
 #include "imageio/imageio.h"
 #include "imageio/layered_input.h"
+#include "imageio/png_check.h"
 
 /* Errors are answers here. */
 static ppm_context *const quiet = NULL;
@@ -37,8 +38,9 @@ static bool ends_with(const uint8_t *bytes, size_t count, const void *end, size_
 /* The size of a PNG is in its first chunk (PNG specification, 11.2.1). */
 static bool is_whole_png(const uint8_t *bytes, size_t count, uint32_t size[2])
 {
-    static const uint8_t end[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
-    if (count < 33 || !ends_with(bytes, count, end, sizeof end)) return false;
+    if (count < 33 || !ends_with(bytes, count, ppmi_imageio_png_end, PPMI_PNG_END_BYTES)) {
+        return false;
+    }
     for (int i = 0; i < 2; i++) {
         const uint8_t *const at = bytes + 16 + 4 * i;
         size[i] = (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];

@@ -22,6 +22,52 @@ static void assert_floats(const float *got, const float *expected, size_t count)
     }
 }
 
+/* ---- attributes that nothing uses ------------------------------------------------------------ */
+
+/* Three vertices with an attribute of a wrong type, and a material with more members. */
+static ppm_status import_odd(gltf_fixture *f, const char *name, const char *type, int component,
+                             const char *material)
+{
+    return gltf_importf(
+        f,
+        "{" GLTF_HEAD "'nodes':[{'mesh':0}],'materials':[{'doubleSided':true%s}],"
+        "'images':[{'uri':'data:image/png;base64,iVBORw0KGgo='}],'textures':[{'source':0}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':0,'%s':1},'material':0}]}],"
+        "'accessors':[{'componentType':5126,'count':3,'type':'VEC3'},"
+        "{'componentType':%d,'count':3,'type':'%s'}]}",
+        material, name, component, type);
+}
+
+static void an_unused_attribute_of_a_wrong_type_is_left_out(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *name, *type;
+        int component;
+        const char *user, *message;
+    } cases[] = {
+        {"TEXCOORD_1", "VEC3", 5126, ",'emissiveTexture':{'index':0,'texCoord':1}",
+         "attributes.TEXCOORD_1 (accessors[1]): type: 3 components"},
+        {"TEXCOORD_0", "VEC2", 5125, ",'emissiveTexture':{'index':0}",
+         "attributes.TEXCOORD_0 (accessors[1]): componentType 5125"},
+        {"TANGENT", "VEC3", 5126, ",'normalTexture':{'index':0}",
+         "attributes.TANGENT (accessors[1]): type: 3 components"},
+    };
+    for (size_t i = 0; i < 3 * sizeof cases / sizeof cases[0]; ++i) {
+        const size_t k = i / 3, way = i % 3; /* 1: strict, 2: something uses it */
+        f->options.strict = way == 1;
+        assert_gltf_status(f,
+                           import_odd(f, cases[k].name, cases[k].type, cases[k].component,
+                                      way == 2 ? cases[k].user : ""),
+                           way == 0   ? PPM_STATUS_OK
+                           : way == 1 ? PPM_STATUS_INPUT_UNSUPPORTED
+                                      : PPM_STATUS_INPUT_INVALID);
+        assert_gltf_logged(f, way == 2 ? 'E' : 'W', cases[k].message);
+        if (way == 0) assert_int_equal(first(f)->vertex_count, 3);
+        gltf_reset(f);
+    }
+}
+
 /* ---- component types ------------------------------------------------------------------------- */
 
 static void positions_of_every_component_type_are_read(void **state)
@@ -463,6 +509,7 @@ static void an_incomplete_triangle_is_left_out_with_a_warning(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(an_unused_attribute_of_a_wrong_type_is_left_out),
         TEST(positions_of_every_component_type_are_read),
         TEST(the_lowest_signed_integer_is_minus_one),
         TEST(indices_of_every_component_type_are_read),

@@ -116,6 +116,32 @@ static void images_that_cannot_be_had_are_left_out_with_a_warning(void **state)
     }
 }
 
+/* All of the file but the last bytes, which say that it ends. */
+static void a_png_without_its_end_is_shown_unless_strict(void **state)
+{
+    gltf_fixture *f = *state;
+    for (size_t lost = 1; lost <= 12; lost += 11) {
+        gltf_write(f, "sub/cut.png", png, sizeof png - lost);
+        f->options.strict = 0;
+        assert_gltf_status(f, import_images(f, BASE_COLOR, "{'source':0}", "{'uri':'cut.png'}"),
+                           PPM_STATUS_OK);
+        assert_int_not_equal(base_color_image(f), 0);
+        assert_gltf_logged(f, 'W', "images[0]: the PNG file ends at byte ");
+        f->options.strict = 1;
+        assert_gltf_status(f, import_images(f, BASE_COLOR, "{'source':0}", "{'uri':'cut.png'}"),
+                           PPM_STATUS_INPUT_UNSUPPORTED);
+    }
+}
+
+static void a_strict_import_refuses_what_is_left_out_of_a_material(void **state)
+{
+    gltf_fixture *f = *state;
+    f->options.strict = 1;
+    assert_gltf_status(f, import_images(f, BASE_COLOR, "{'source':0}", "{'uri':'absent.png'}"),
+                       PPM_STATUS_INPUT_UNSUPPORTED);
+    assert_gltf_logged(f, 'W', "textures without an image that can be read: textures[0]");
+}
+
 static void a_webp_source_that_fails_gives_way_to_the_plain_one(void **state)
 {
     gltf_fixture *f = *state;
@@ -171,6 +197,8 @@ int main(void)
         TEST(images_that_nothing_uses_are_not_decoded),
         TEST(images_that_cannot_be_had_are_left_out_with_a_warning),
         TEST(a_webp_source_that_fails_gives_way_to_the_plain_one),
+        TEST(a_png_without_its_end_is_shown_unless_strict),
+        TEST(a_strict_import_refuses_what_is_left_out_of_a_material),
         TEST(a_plain_source_is_taken_before_ktx2),
         TEST(textures_that_are_missing_or_empty_are_warned_about),
         TEST(a_sampler_that_does_not_exist_is_warned_about),
