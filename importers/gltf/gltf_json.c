@@ -112,6 +112,22 @@ bool ppmi_gltf_json_string(ppmi_gltf_json *json, ppmi_gltf_span *out_inside)
     return ppmi_gltf_json_fail(json, "the string has no end");
 }
 
+/* Names what writers put in place of numbers that JSON does not have. */
+static bool fail_no_value(ppmi_gltf_json *json, const char *error)
+{
+    static const char *const words[] = {"nan", "inf"};
+    const size_t at = json->at;
+    for (size_t i = 0; i < 2; ++i) {
+        size_t same = 0;
+        while (same < 3 && at + same < json->length &&
+               (json->text[at + same] | 0x20) == words[i][same])
+            ++same;
+        if (same < 3) continue;
+        error = i == 0 ? "NaN is no number of JSON" : "Infinity is no number of JSON";
+    }
+    return ppmi_gltf_json_fail(json, error);
+}
+
 static bool is_digit_at(const ppmi_gltf_json *json)
 {
     return json->at < json->length && json->text[json->at] >= '0' && json->text[json->at] <= '9';
@@ -145,7 +161,7 @@ static bool scan_exponent(ppmi_gltf_json *json, double *exponent)
 bool ppmi_gltf_json_number(ppmi_gltf_json *json, ppmi_gltf_number *out_number)
 {
     const bool negative = ppmi_gltf_json_take(json, '-');
-    if (!is_digit_at(json)) return ppmi_gltf_json_fail(json, "expected a digit");
+    if (!is_digit_at(json)) return fail_no_value(json, "expected a digit");
     const bool leading_zero = is_char_at(json, '0');
     double value = 0.0, exponent = 0.0;
     const size_t digits = scan_digits(json, &value);
@@ -183,7 +199,7 @@ bool ppmi_gltf_json_literal(ppmi_gltf_json *json, char *out_letter)
             return true;
         }
     }
-    return ppmi_gltf_json_fail(json, "expected a value");
+    return fail_no_value(json, "expected a value");
 }
 
 static unsigned long unescape_unit(const char *digits)

@@ -102,6 +102,26 @@ static float color_for_anisotropy(float color, float g)
     return (float)fmin(fmax(out, 0.0), 1.0);
 }
 
+/* The extension wants more than 0, and has infinity for what does not absorb. Its sample viewer
+ * takes 0 for that, too; by the formula, c^(x / 0), a solid of colour would be black. */
+static void convert_attenuation_distance(ppmi_gltf_conversion *c)
+{
+    const double *distance_m = &c->from->attenuation_distance;
+    c->desc.attenuation_distance_m = 0.0f; /* no absorption */
+    if (isinf(*distance_m)) return;
+    if (*distance_m > 0.0) {
+        ppmi_gltf_set(c, "KHR_materials_volume.attenuationDistance", distance_m, 1, 0.0,
+                      PPMI_GLTF_HUGE, &c->desc.attenuation_distance_m);
+        return;
+    }
+    ppmi_gltf_warn(c->reader, c->place,
+                   "KHR_materials_volume.attenuationDistance is %g and must be above 0: nothing is "
+                   "absorbed, as without it",
+                   *distance_m);
+    ppmi_gltf_note_feature(c->reader, "attenuationDistance of 0 or less", PPM_FEATURE_IGNORED,
+                           c->place);
+}
+
 static void convert_volume(ppmi_gltf_conversion *c)
 {
     const ppmi_gltf_material *from = c->from;
@@ -109,8 +129,7 @@ static void convert_volume(ppmi_gltf_conversion *c)
     ppm_material_desc *desc = &c->desc;
     ppmi_gltf_set(c, "KHR_materials_volume.attenuationColor", from->attenuation_color, 3, 0.0, 1.0,
                   desc->attenuation_color);
-    ppmi_gltf_set(c, "KHR_materials_volume.attenuationDistance", &from->attenuation_distance, 1,
-                  0.0, PPMI_GLTF_HUGE, &desc->attenuation_distance_m);
+    convert_attenuation_distance(c);
     convert_medium_color(c);
     ppmi_gltf_set(c, "KHR_materials_volume_scatter.scatterAnisotropy",
                   &scattering->scatter_anisotropy, 1, -MAX_SCATTER_ANISOTROPY,

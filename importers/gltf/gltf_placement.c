@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gltf/gltf_deform.h"
+#include "gltf/gltf_matrix.h"
 #include "gltf/gltf_patch.h"
 #include "gltf/gltf_pose.h"
 
@@ -106,6 +107,12 @@ ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_g
     const ppm_light_desc dark = {.size = sizeof dark,
                                  .kind = PPM_LIGHT_POINT,
                                  .transform = {[0] = 1.0f, [5] = 1.0f, [10] = 1.0f, [15] = 1.0f}};
-    const ppm_light_id id = reader->placements->lights[(size_t)node * PPMI_GLTF_WAY_COUNT + way];
-    return id != 0 ? ppm_scene_set_light(reader->scene, id, &dark) : PPM_STATUS_OK;
+    ppm_light_id *id = &reader->placements->lights[(size_t)node * PPMI_GLTF_WAY_COUNT + way];
+    char place[PPMI_GLTF_PLACE];
+    ppmi_gltf_place(place, "left out, the last of them at nodes[%d]", (int)node);
+    ppmi_gltf_note_feature(reader, "lights that cannot shine", PPM_FEATURE_IGNORED, place);
+    if (*id != 0) return ppm_scene_set_light(reader->scene, *id, &dark);
+    /* a lamp that is scaled to nothing is off, and has the surroundings dark */
+    if (ppmi_gltf_matrix_determinant(reader->pose->middle[node]) != 0.0) return PPM_STATUS_OK;
+    return ppm_scene_add_light(reader->scene, &dark, id);
 }

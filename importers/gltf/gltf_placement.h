@@ -37,6 +37,7 @@ ppm_status ppmi_gltf_put_camera(ppmi_gltf_reader *reader, int32_t node,
 ppm_status ppmi_gltf_put_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way,
                                const ppm_light_desc *desc);
 /* Of a light that cannot be as it is now: takes the light of the pose before away, if there is one.
+ * One that a scale of zero takes away is in the scene all the same, and dark: the file has light.
  */
 ppm_status ppmi_gltf_darken_light(ppmi_gltf_reader *reader, int32_t node, ppmi_gltf_light_way way);
 

@@ -294,7 +294,7 @@ typedef struct ppmi_gltf_material {
     ppmi_gltf_texture_info specular_texture, specular_color_texture;
     double transmission;
     ppmi_gltf_texture_info transmission_texture;
-    double thickness, attenuation_color[3], attenuation_distance; /* distance 0: infinite */
+    double thickness, attenuation_color[3], attenuation_distance; /* HUGE_VAL: not given */
     double dispersion;                                            /* 20 / Abbe number; 0: none */
     ppmi_gltf_layers layers;
     ppmi_gltf_scattering scattering;

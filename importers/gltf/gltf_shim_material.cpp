@@ -127,7 +127,7 @@ void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material
 
     const Value &volume = extension(map, "KHR_materials_volume");
     out->thickness = number_or(volume, "thicknessFactor", 0.0);
-    out->attenuation_distance = number_or(volume, "attenuationDistance", 0.0);
+    out->attenuation_distance = number_or(volume, "attenuationDistance", HUGE_VAL);
     numbers_or(volume, "attenuationColor", out->attenuation_color, 3, 1.0);
     out->dispersion = number_or(extension(map, "KHR_materials_dispersion"), "dispersion", 0.0);
     copy_clearcoat_and_sheen(map, &out->layers);

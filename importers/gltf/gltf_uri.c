@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 #include <string.h>
+#include <unistd.h>
 
 static bool equals_ignoring_case(const char *a, const char *b, size_t length)
 {
@@ -168,14 +169,34 @@ static const char *path_fault(bool allow_outside, const char *path, size_t lengt
                  "allowed";
 }
 
-ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, bool allow_outside,
-                              const char *uri, size_t length, char **out_path,
-                              const char **out_reason)
+/* Takes "." and "name/.." out of a path (RFC 3986, section 5.2.4), so that it does not matter
+ * whether there is a folder of that name. What leads out of the beginning stays. */
+static void remove_dot_segments(char *path)
 {
-    *out_path = NULL;
-    if (length == 0) return refuse("the URI is empty", out_reason);
-    const char *fault = scheme_fault(allow_outside, &uri, &length);
-    if (fault) return refuse(fault, out_reason);
+    const size_t root = *path == '/';
+    size_t to = root, names = 0; /* names: how many of the parts so far ".." can take back */
+    for (const char *from = path + root; *from;) {
+        const size_t length = strcspn(from, "/"), step = length + (from[length] == '/');
+        const bool is_up = length == 2 && from[0] == '.' && from[1] == '.';
+        if (is_up && names > 0) {
+            for (--to; to > root && path[to - 1] != '/'; --to) {
+            }
+            --names;
+        } else if (length > 0 && !(length == 1 && from[0] == '.')) {
+            memmove(path + to, from, step);
+            to += step;
+            names += !is_up;
+        }
+        from += step;
+    }
+    path[to] = 0;
+}
+
+/* The file that the first length characters of a URI name; *out_path is the caller's. */
+static ppm_status make_path(ppm_context *context, const char *asset_path, bool allow_outside,
+                            const char *uri, size_t length, char **out_path,
+                            const char **out_reason)
+{
     const char *slash = strrchr(asset_path, '/');
     const size_t folder = slash ? (size_t)(slash - asset_path) + 1 : 0;
     char *path = ppmi_alloc(context, folder + length + 1, 1);
@@ -188,12 +209,35 @@ ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, bool
         if (relative[i] == '\\')
             relative[i] = '/'; /* not legal in a URI; some exporters write it */
     }
-    fault = path_fault(allow_outside, relative, count);
+    const char *fault = path_fault(allow_outside, relative, count);
     if (fault) {
         ppmi_free(context, path);
         return refuse(fault, out_reason);
     }
-    if (relative[0] == '/') memmove(path, relative, count + 1);
+    remove_dot_segments(relative);
+    if (relative[0] == '/') memmove(path, relative, strlen(relative) + 1);
     *out_path = path;
     return PPM_STATUS_OK;
+}
+
+/* A query or fragment (RFC 3986, sections 3.4 and 3.5) says nothing about a file; but there are
+ * writers that do not escape the characters of a name. */
+ppm_status ppmi_gltf_uri_path(ppm_context *context, const char *asset_path, bool allow_outside,
+                              const char *uri, size_t length, char **out_path,
+                              const char **out_reason)
+{
+    *out_path = NULL;
+    if (length == 0) return refuse("the URI is empty", out_reason);
+    const char *fault = scheme_fault(allow_outside, &uri, &length);
+    if (fault) return refuse(fault, out_reason);
+    size_t plain = 0;
+    while (plain < length && uri[plain] != '?' && uri[plain] != '#')
+        ++plain;
+    const ppm_status status =
+        make_path(context, asset_path, allow_outside, uri, length, out_path, out_reason);
+    if (plain == 0 || plain == length) return status;
+    if (status == PPM_STATUS_OK && access(*out_path, F_OK) == 0) return status;
+    ppmi_free(context, *out_path);
+    *out_path = NULL;
+    return make_path(context, asset_path, allow_outside, uri, plain, out_path, out_reason);
 }

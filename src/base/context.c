@@ -1,5 +1,6 @@
 /* Context, reporting and memory. */
 #include "base/context.h"
+#include "base/printable.h"
 
 #include <malloc.h>
 #include <pthread.h>
@@ -103,28 +104,12 @@ static bool wait_with(ppm_context *fork, ppm_log_level level, const char *text)
     return true;
 }
 
-/* How many bytes at text are a control character (of C0, DEL or, in UTF-8, C1): 0, 1 or 2. */
-static size_t control_length(const unsigned char *text)
-{
-    if (text[0] < 0x20 || text[0] == 0x7f) return 1;
-    return text[0] == 0xc2 && text[1] >= 0x80 && text[1] < 0xa0 ? 2 : 0;
-}
-
-/* Names and what libraries say of files come from strangers: their control characters would reach a
- * terminal, which obeys some. They are shown as \xNN; what has no room is cut off. */
+/* Names and what libraries say of files come from strangers. */
 static void escape_controls(char message[MESSAGE_SIZE])
 {
     char shown[MESSAGE_SIZE];
-    size_t length = 0;
-    const unsigned char *from = (const unsigned char *)message;
-    while (*from && length + 9 < sizeof shown) {
-        const size_t control = control_length(from);
-        if (control == 0) shown[length++] = (char)*from++;
-        for (size_t i = 0; i < control; i++)
-            length += (size_t)snprintf(shown + length, sizeof shown - length, "\\x%02x", *from++);
-    }
-    shown[length] = '\0';
-    memcpy(message, shown, length + 1);
+    ppmi_printable(message, shown, sizeof shown);
+    memcpy(message, shown, strlen(shown) + 1);
 }
 
 static void deliver(ppm_context *context, ppm_log_level level, const char *message)

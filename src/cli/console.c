@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/printable.h"
 #include "options.h"
 
 void console_init(cli_console *console, int32_t verbosity)
@@ -44,7 +45,7 @@ void console_log(void *user, ppm_log_level level, const char *message)
     const bool is_note = level == PPM_LOG_INFO && console->verbosity != VERBOSITY_VERBOSE;
     if (level > loudest_shown(console) || (is_note && console->is_repeating)) return;
     console_clear_line(console);
-    fprintf(stderr, "%s%s\n", prefix(level), message);
+    ppmi_print(stderr, "%s%s\n", prefix(level), message);
 }
 
 void console_message(cli_console *console, ppm_log_level level, const char *format, ...)
@@ -54,7 +55,7 @@ void console_message(cli_console *console, ppm_log_level level, const char *form
     fputs(prefix(level), stderr);
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    ppmi_vprint(stderr, format, arguments);
     va_end(arguments);
     fputc('\n', stderr);
 }
@@ -65,7 +66,7 @@ void console_always(cli_console *console, const char *format, ...)
     fputs("ppm-render: ", stderr);
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    ppmi_vprint(stderr, format, arguments);
     va_end(arguments);
     fputc('\n', stderr);
 }
@@ -74,10 +75,12 @@ void console_progress(cli_console *console, const char *text)
 {
     if (console->verbosity == VERBOSITY_QUIET) return;
     if (!console->is_terminal) {
-        fprintf(stderr, "%s\n", text);
+        ppmi_print(stderr, "%s\n", text);
         return;
     }
-    fprintf(stderr, "\r%s\033[K", text);
+    fputc('\r', stderr);
+    ppmi_print(stderr, "%s", text);
+    fputs("\033[K", stderr);
     fflush(stderr);
     console->line_is_shown = true;
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/printable.h"
 #include "options.h"
 
 static int finish(void)
@@ -32,32 +33,32 @@ static const char *mark(const char *name, const char *default_name)
 
 static void print_display(const ppm_color *color, const char *display)
 {
-    printf("  %s%s\n", display, mark(display, ppm_color_default_display(color)));
+    ppmi_print(stdout, "  %s%s\n", display, mark(display, ppm_color_default_display(color)));
     const uint32_t count = ppm_color_view_count(color, display);
     for (uint32_t i = 0; i < count; i++) {
         const char *const view = ppm_color_view_name(color, display, i);
-        printf("    %s%s\n", view, mark(view, ppm_color_default_view(color, display)));
+        ppmi_print(stdout, "    %s%s\n", view, mark(view, ppm_color_default_view(color, display)));
     }
 }
 
 int info_print_views(const ppm_color *color)
 {
-    printf("Configuration: %s\n\nDisplays (--display) and their views (--view):\n",
-           ppm_color_source(color));
+    ppmi_print(stdout, "Configuration: %s\n", ppm_color_source(color));
+    fputs("\nDisplays (--display) and their views (--view):\n", stdout);
     const uint32_t display_count = ppm_color_display_count(color);
     for (uint32_t i = 0; i < display_count; i++) {
         print_display(color, ppm_color_display_name(color, i));
     }
     const uint32_t look_count = ppm_color_look_count(color);
-    printf("\nLooks (--look):%s\n", look_count == 0 ? " none" : "");
+    ppmi_print(stdout, "\nLooks (--look):%s\n", look_count == 0 ? " none" : "");
     for (uint32_t i = 0; i < look_count; i++)
-        printf("  %s\n", ppm_color_look_name(color, i));
-    printf("\nColour spaces (--working-space, --texture-space):\n");
+        ppmi_print(stdout, "  %s\n", ppm_color_look_name(color, i));
+    ppmi_print(stdout, "\nColour spaces (--working-space, --texture-space):\n");
     const uint32_t space_count = ppm_color_space_count(color);
     for (uint32_t i = 0; i < space_count; i++) {
         const char *const name = ppm_color_space_name(color, i);
         const bool is_working = strcmp(name, ppm_color_working_space(color)) == 0;
-        printf("  %s%s\n", name, is_working ? " (working space)" : "");
+        ppmi_print(stdout, "  %s%s\n", name, is_working ? " (working space)" : "");
     }
     return finish();
 }

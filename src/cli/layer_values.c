@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/printable.h"
 #include "base/suggest.h"
 #include "option_values.h"
 #include "options.h"
@@ -48,12 +49,12 @@ static int complain_of_name(const option_table *table, const option_row *row, co
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++)
         names[WORDS + kind] = ppm_layer_kind_name(kind);
     const char *const nearest = ppmi_suggest(name, names, WORDS + PPM_LAYER_KINDS);
-    fprintf(stderr, "%s: error: --%s: there is no layer '%s'", table->program, row->name, name);
-    if (nearest) fprintf(stderr, "; did you mean '%s'?", nearest);
+    ppmi_print(stderr, "%s: error: --%s: there is no layer '%s'", table->program, row->name, name);
+    if (nearest) ppmi_print(stderr, "; did you mean '%s'?", nearest);
     fputs("\nLayers: all, crypto, light_variance", stderr);
     for (int32_t kind = 0; kind < PPM_LAYER_KINDS; kind++) {
         const bool is_second = kind == PPM_LAYER_GROUP_CAUSTICS || kind == PPM_LAYER_LIGHT_VARIANCE;
-        if (!is_second) fprintf(stderr, ", %s", ppm_layer_kind_name(kind));
+        if (!is_second) ppmi_print(stderr, ", %s", ppm_layer_kind_name(kind));
     }
     fputc('\n', stderr);
     return option_give_hint(table);

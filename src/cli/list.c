@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printable.h"
 #include "features_json.h"
 #include "options.h"
 
@@ -61,7 +62,7 @@ static int name_column(const ppm_asset *asset, int32_t kind)
 static void print_padded(const char *text, int width)
 {
     const int missing = width - columns(text);
-    printf("%s%*s", text, missing > 0 ? missing : 0, "");
+    ppmi_print(stdout, "%s%*s", text, missing > 0 ? missing : 0, "");
 }
 
 static void print_kind(const ppm_asset *asset, int32_t kind, const char *heading)
@@ -69,16 +70,16 @@ static void print_kind(const ppm_asset *asset, int32_t kind, const char *heading
     const uint32_t count = ppm_asset_count(asset, kind);
     const int width = name_column(asset, kind);
     if (count == 0) return;
-    printf("\n%s: %u\n", heading, count);
+    ppmi_print(stdout, "\n%s: %u\n", heading, count);
     for (uint32_t i = 0; i < count; i++) {
         ppm_asset_item item = {.size = sizeof item};
         if (ppm_asset_get_item(asset, kind, i, &item) != PPM_STATUS_OK) continue;
-        printf("%5u  ", i + 1);
+        ppmi_print(stdout, "%5u  ", i + 1);
         if (*item.detail) {
             print_padded(item.name, width);
-            printf("  %s\n", item.detail);
+            ppmi_print(stdout, "  %s\n", item.detail);
         } else {
-            printf("%s\n", item.name);
+            ppmi_print(stdout, "%s\n", item.name);
         }
     }
 }
@@ -90,10 +91,10 @@ static void print_features(const ppm_asset *asset, int32_t verdict, bool *has_he
         ppm_asset_feature feature = {.size = sizeof feature};
         if (ppm_asset_get_feature(asset, i, &feature) != PPM_STATUS_OK) continue;
         if (feature.verdict != verdict) continue;
-        if (!*has_heading) printf("\nWhat of it is understood:\n");
+        if (!*has_heading) ppmi_print(stdout, "\nWhat of it is understood:\n");
         *has_heading = true;
-        printf("  %-13s %s%s%s\n", feature_verdict(verdict), feature.name,
-               *feature.note ? ": " : "", feature.note);
+        ppmi_print(stdout, "  %-13s %s%s%s\n", feature_verdict(verdict), feature.name,
+                   *feature.note ? ": " : "", feature.note);
     }
 }
 
@@ -119,12 +120,12 @@ static const char *part_name(uint32_t part)
 static void print_setup(const ppm_setup *setup)
 {
     if (!setup) return;
-    printf("\nSetup file (--setup): %s\n", ppm_setup_path(setup));
+    ppmi_print(stdout, "\nSetup file (--setup): %s\n", ppm_setup_path(setup));
     for (uint32_t i = 0; i < ppm_setup_count(setup); i++) {
         ppm_setup_item item = {.size = sizeof item};
         if (ppm_setup_get_item(setup, i, &item) != PPM_STATUS_OK) continue;
-        printf("  %-11s  %s%s%s\n", part_name(item.part), item.name,
-               *item.name && *item.detail ? ": " : "", item.detail);
+        ppmi_print(stdout, "  %-11s  %s%s%s\n", part_name(item.part), item.name,
+                   *item.name && *item.detail ? ": " : "", item.detail);
     }
 }
 
@@ -133,8 +134,8 @@ static void print_table(const ppm_asset *asset, const ppm_setup *setup, const ch
     const char *const generator = ppm_asset_generator(asset);
     const char *const units = ppm_asset_light_units(asset);
     bool has_heading = false;
-    printf("%s%s%s\n", path, *generator ? ", written by " : "", generator);
-    printf("Units: metres, radians, seconds%s%s\n", *units ? "; lights: " : "", units);
+    ppmi_print(stdout, "%s%s%s\n", path, *generator ? ", written by " : "", generator);
+    ppmi_print(stdout, "Units: metres, radians, seconds%s%s\n", *units ? "; lights: " : "", units);
     for (size_t i = 0; i < KIND_COUNT; i++)
         print_kind(asset, kinds[i].kind, kinds[i].heading);
     print_setup(setup);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printable.h"
 #include "base/suggest.h"
 #include "values.h"
 
@@ -66,7 +67,7 @@ void option_table_print_help(const option_table *table, FILE *stream)
 int option_give_hint(const option_table *table)
 {
     if (table->source) return EXIT_INPUT;
-    fprintf(stderr, "Try '%s --help'.\n", table->program);
+    ppmi_print(stderr, "Try '%s --help'.\n", table->program);
     return EXIT_USAGE;
 }
 
@@ -74,16 +75,16 @@ int option_give_hint(const option_table *table)
 static void begin_complaint(const option_table *table, const option_row *row)
 {
     if (table->source) {
-        fprintf(stderr, "%s: error: %s: render.%s: ", table->program, table->source, row->name);
+        ppmi_print(stderr, "%s: error: %s: render.%s: ", table->program, table->source, row->name);
     } else {
-        fprintf(stderr, "%s: error: --%s: ", table->program, row->name);
+        ppmi_print(stderr, "%s: error: --%s: ", table->program, row->name);
     }
 }
 
 int option_complain_of_all(const option_table *table, const char *message)
 {
-    fprintf(stderr, "%s: error: %s%s%s\n", table->program, table->source ? table->source : "",
-            table->source ? ": " : "", message);
+    ppmi_print(stderr, "%s: error: %s%s%s\n", table->program, table->source ? table->source : "",
+               table->source ? ": " : "", message);
     return option_give_hint(table);
 }
 
@@ -91,13 +92,13 @@ int option_complain(const option_table *table, const option_row *row, const char
                     const char *expected)
 {
     begin_complaint(table, row);
-    fprintf(stderr, "'%s' is not %s\n", value, expected);
+    ppmi_print(stderr, "'%s' is not %s\n", value, expected);
     return option_give_hint(table);
 }
 
 static void suggest(const char *nearest, const char *dashes)
 {
-    if (nearest) fprintf(stderr, "; did you mean '%s%s'?", dashes, nearest);
+    if (nearest) ppmi_print(stderr, "; did you mean '%s%s'?", dashes, nearest);
     fputc('\n', stderr);
 }
 
@@ -109,8 +110,8 @@ static int unknown_name(const option_table *table, const char *name)
     if (!names) return EXIT_RESOURCES;
     for (size_t i = 0; i < table->count; i++)
         names[i] = table->rows[i].name;
-    fprintf(stderr, "%s: error: %s%sunknown option '%s%s'", table->program,
-            table->source ? table->source : "", table->source ? ": render: " : "", dashes, name);
+    ppmi_print(stderr, "%s: error: %s%sunknown option '%s%s'", table->program,
+               table->source ? table->source : "", table->source ? ": render: " : "", dashes, name);
     suggest(ppmi_suggest(name, names, table->count), dashes);
     free(names);
     return option_give_hint(table);
@@ -126,10 +127,10 @@ static int unknown_long(const option_table *table, const char *word)
 static int unknown_letter(const option_table *table, int letter)
 {
     const int other_case = letter ^ ('a' ^ 'A');
-    fprintf(stderr, "%s: error: unknown option '-%c'", table->program, letter);
+    ppmi_print(stderr, "%s: error: unknown option '-%c'", table->program, letter);
     for (size_t i = 0; i < table->count; i++) {
         if (table->rows[i].letter && table->rows[i].letter == other_case) {
-            fprintf(stderr, "; did you mean '-%c' (--%s)?", other_case, table->rows[i].name);
+            ppmi_print(stderr, "; did you mean '-%c' (--%s)?", other_case, table->rows[i].name);
         }
     }
     fputc('\n', stderr);
@@ -183,9 +184,9 @@ int option_store_choice(const option_table *table, const option_row *row, const 
         names[count++] = each->name;
     }
     begin_complaint(table, row);
-    fprintf(stderr, "'%s' is not one of", name);
+    ppmi_print(stderr, "'%s' is not one of", name);
     for (size_t i = 0; i < count; i++)
-        fprintf(stderr, "%s %s", i ? "," : "", names[i]);
+        ppmi_print(stderr, "%s %s", i ? "," : "", names[i]);
     suggest(ppmi_suggest(name, names, count), "");
     return option_give_hint(table);
 }
@@ -263,12 +264,12 @@ static int refuse(const option_table *table, int answer, const char *word)
 {
     const option_row *const row = find_row(table, optopt);
     if (answer == ':' && row) {
-        fprintf(stderr, "%s: error: --%s needs a value: %s\n", table->program, row->name,
-                row->argument);
+        ppmi_print(stderr, "%s: error: --%s needs a value: %s\n", table->program, row->name,
+                   row->argument);
         return option_give_hint(table);
     }
     if (row && optopt >= FIRST_LONG) {
-        fprintf(stderr, "%s: error: --%s takes no value\n", table->program, row->name);
+        ppmi_print(stderr, "%s: error: --%s takes no value\n", table->program, row->name);
         return option_give_hint(table);
     }
     return optopt ? unknown_letter(table, optopt) : unknown_long(table, word);
@@ -313,7 +314,7 @@ int option_table_parse(const option_table *table, int argc, char **argv, void *o
         fill_tables(table, letters, names);
         status = parse_words(table, argc, argv, letters, names, options);
     } else {
-        fprintf(stderr, "%s: error: out of memory\n", table->program);
+        ppmi_print(stderr, "%s: error: out of memory\n", table->program);
     }
     free(letters);
     free(names);

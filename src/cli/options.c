@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/printable.h"
 #include "option_values.h"
 #include "ppm/ppm.h"
 #include "setup_file.h"
@@ -445,8 +446,8 @@ static int take_input(int argc, char **argv, cli_options *options)
     }
     if (optind + 1 < argc) {
         const char *const first = argv[optind], *const second = argv[optind + 1];
-        fprintf(stderr, "ppm-render: error: one INPUT at a time; besides '%s' there is '%s'\n",
-                first, second);
+        ppmi_print(stderr, "ppm-render: error: one INPUT at a time; besides '%s' there is '%s'\n",
+                   first, second);
         if (options->list && strcmp(first, "json") == 0) {
             fputs("For JSON write --list=json.\n", stderr);
         }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/printable.h"
 #include "compare/heat.h"
 #include "compare/options.h"
 #include "compare/report.h"
@@ -21,7 +22,8 @@ static void say(void *user, ppm_log_level level, const char *message)
 {
     (void)user;
     if (level > PPM_LOG_WARNING) return;
-    fprintf(stderr, "ppm-compare: %s: %s\n", level == PPM_LOG_ERROR ? "error" : "warning", message);
+    ppmi_print(stderr, "ppm-compare: %s: %s\n", level == PPM_LOG_ERROR ? "error" : "warning",
+               message);
 }
 
 static size_t pixel_count(const compare_program *program)

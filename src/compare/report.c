@@ -7,6 +7,7 @@
 
 #include <jansson.h>
 
+#include "base/printable.h"
 #include "ppm/context.h"
 
 int report_finish(void)
@@ -147,8 +148,8 @@ int report_check_limits(const comparison *result, const compare_options *options
     for (size_t i = 0; i < LIMIT_COUNT; i++) {
         const real_option limit = options->limits[i];
         if (!limit.is_given || values[i] <= limit.value) continue;
-        fprintf(stderr, "ppm-compare: %s is %.6g, above %g\n", limit_names[i], values[i],
-                limit.value);
+        ppmi_print(stderr, "ppm-compare: %s is %.6g, above %g\n", limit_names[i], values[i],
+                   limit.value);
         status = EXIT_ABOVE;
     }
     return status;

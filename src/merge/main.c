@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/printable.h"
 #include "cli/exit_status.h"
 #include "imageio/imageio.h"
 #include "merge/check.h"
@@ -29,7 +30,8 @@ static void say(void *user, ppm_log_level level, const char *message)
     const merge_program *const program = user;
     const ppm_log_level least = program->options.is_quiet ? PPM_LOG_ERROR : PPM_LOG_WARNING;
     if (level > least) return;
-    fprintf(stderr, "ppm-merge: %s: %s\n", level == PPM_LOG_ERROR ? "error" : "warning", message);
+    ppmi_print(stderr, "ppm-merge: %s: %s\n", level == PPM_LOG_ERROR ? "error" : "warning",
+               message);
 }
 
 /* The words as they came, before options are moved to the front. */
@@ -102,9 +104,10 @@ static void say_what_is_there(const merge_program *program)
 {
     const merge_totals *const totals = &program->totals;
     if (program->options.is_quiet) return;
-    fprintf(stderr, "%s: %zu files, %llu passes, %llu photons, %.1f s\n", program->options.output,
-            program->options.input_count, (unsigned long long)totals->passes,
-            (unsigned long long)totals->photons, totals->seconds);
+    ppmi_print(stderr, "%s: %zu files, %llu passes, %llu photons, %.1f s\n",
+               program->options.output, program->options.input_count,
+               (unsigned long long)totals->passes, (unsigned long long)totals->photons,
+               totals->seconds);
 }
 
 static int merge(merge_program *program)

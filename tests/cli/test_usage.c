@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -53,6 +54,58 @@ static void unknown_options_name_the_nearest(void **state)
         {"-Z tiny.gltf", "unknown option '-Z'\n"},
     };
     ASSERT_ALL_REFUSED(cases, 1);
+}
+
+/* Whatever is wrong with a name that would clear the screen, none of it reaches the terminal. */
+static void control_characters_of_the_command_line_are_shown(void **state)
+{
+    (void)state;
+    static const char *const cases[] = {
+        "\"$E\"",
+        "\"$E.gltf\"",
+        "tiny.gltf -o \"$E\"",
+        "tiny.gltf -o \"no/$E.png\"",
+        "tiny.gltf -s \"$E\"",
+        "tiny.gltf -i \"$E\"",
+        "tiny.gltf --aov \"$E\"",
+        "tiny.gltf --view \"$E\"",
+        "tiny.gltf --ocio \"$E\"",
+        "tiny.gltf --camera \"$E\"",
+        "tiny.gltf --setup \"$E\"",
+        "tiny.gltf --env \"$E\"",
+        "tiny.gltf --stats \"no/$E\" -n 1 -s 4x4",
+        "tiny.gltf --\"$E\"",
+        "tiny.gltf \"$E\"",
+    };
+    setenv("E", "\x1b[2Jx", 1);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const outcome result = run_program(cases[i]);
+        if (result.status == 0 || strchr(result.err, '\x1b') || !strstr(result.err, "\\x1b[2Jx")) {
+            fail_msg("%s\nstatus %d, said: %s", cases[i], result.status, result.err);
+        }
+    }
+    unsetenv("E");
+}
+
+/* Those that go well: the picture is written and named, and the scene is listed. */
+static void control_characters_of_files_that_are_fine_are_shown(void **state)
+{
+    (void)state;
+    setenv("E", "\x1b[2Jx", 1);
+    assert_int_equal(system("cp tiny.gltf \"$E.gltf\""), 0);
+    static const char *const cases[] = {
+        "-n 1 -s 4x4 -i path -v -o \"$E.png\" \"$E.gltf\"",
+        "-n 1 -s 4x4 -i path --frames 1-2 -o \"$E.##.png\" \"$E.gltf\"",
+        "--list \"$E.gltf\"",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const outcome result = run_program(cases[i]);
+        if (result.status != 0 || strchr(result.err, '\x1b') || strchr(result.out, '\x1b') ||
+            (!strstr(result.err, "\\x1b[2Jx") && !strstr(result.out, "\\x1b[2Jx"))) {
+            fail_msg("%s\nstatus %d, said: %s%s", cases[i], result.status, result.err, result.out);
+        }
+    }
+    unsetenv("E");
 }
 
 static void bad_values_name_option_and_value(void **state)
@@ -253,6 +306,8 @@ static void output_that_cannot_be_shown_is_no_success(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(control_characters_of_the_command_line_are_shown),
+        cmocka_unit_test(control_characters_of_files_that_are_fine_are_shown),
         cmocka_unit_test(denoising_one_pass_is_refused),
         cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(bad_values_name_option_and_value),

@@ -241,9 +241,25 @@ static void heat_maps_show_where(void **state)
     ppmi_imageio_pixels_free(NULL, &pixels);
 }
 
+static void control_characters_of_names_are_shown(void **state)
+{
+    (void)state;
+    static const char *const cases[] = {"\"$E.exr\" \"$E.exr\"", "--heat \"no/$E.png\" a.exr b.exr",
+                                        "--\"$E\"", "--trim \"$E\" a b"};
+    setenv("E", "\x1b[2Jx", 1);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const outcome result = run_program(cases[i]);
+        if (result.status == 0 || strchr(result.err, '\x1b') || !strstr(result.err, "\\x1b[2Jx")) {
+            fail_msg("%s\nstatus %d, said: %s", cases[i], result.status, result.err);
+        }
+    }
+    unsetenv("E");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(control_characters_of_names_are_shown),
         cmocka_unit_test(wrong_usage_is_explained),
         cmocka_unit_test(unusable_inputs_end_with_two),
         cmocka_unit_test(a_heat_map_that_cannot_be_written_ends_with_three_at_once),

@@ -212,9 +212,34 @@ static void a_file_without_meshes_says_that_there_is_nothing_to_render(void **st
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
+static void numbers_that_json_does_not_have_are_named(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *json, *message;
+    } cases[] = {
+        {"{'asset':{'version':'2.0'},\n'nodes':[{'translation':[0,NaN,0]}]}",
+         "line 2, column 28: NaN is no number of JSON, in nodes[0].translation"},
+        {"{'asset':{'version':'2.0'},\n'nodes':[{'translation':[0,-Infinity,0]}]}",
+         "line 2, column 29: Infinity is no number of JSON, in nodes[0].translation"},
+        {"{'asset':{'version':'2.0'},'extras':{'a':inf}}",
+         "line 1, column 42: Infinity is no number of JSON"},
+        {"{'asset':{'version':'2.0'},'extras':[-nan]}",
+         "line 1, column 39: NaN is no number of JSON"},
+        {"{'asset':{'version':'2.0'},'extras':[na]}", "line 1, column 38: expected a value"},
+        {"{'asset':{'version':'2.0'},'extras':[in", "line 1, column 38: expected a value"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        assert_gltf_status(f, gltf_import(f, cases[i].json), PPM_STATUS_INPUT_INVALID);
+        assert_gltf_logged(f, 'E', cases[i].message);
+        gltf_reset(f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(numbers_that_json_does_not_have_are_named),
         TEST(text_that_is_not_json_is_refused_with_its_place),
         TEST(text_that_is_not_utf8_is_refused),
         TEST(a_key_that_occurs_twice_is_refused),

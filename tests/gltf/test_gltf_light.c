@@ -193,8 +193,35 @@ static void invalid_area_lights_are_left_out_with_a_warning(void **state)
         assert_gltf_logged(f, 'W', "nodes[0].extensions.EXT_lights_area.light: left out");
         gltf_reset(f);
     }
+}
+
+/* It is off: the surroundings of files without a light would be wrong, and another frame may have
+ * another scale. */
+static void lights_that_are_scaled_to_nothing_are_told_and_dark(void **state)
+{
+    gltf_fixture *f = *state;
     assert_gltf_status(f, import_area(f, ",'scale':[0,0,0]", "{'type':'disk'}"), PPM_STATUS_OK);
-    assert_int_equal(f->scene->punctual_count, 0);
+    assert_gltf_logged(f, 'W', "nodes[0].extensions.EXT_lights_area.light: left out: its size");
+    assert_int_equal(f->scene->punctual_count, 1);
+    assert_float_equal(vec3_max_component(f->scene->punctuals[0].intensity), 0.0f, 0.0f);
+    assert_true(ppmi_scene_has_light(f->scene));
+    for (int i = 0; i < 2; ++i) {
+        gltf_reset(f);
+        assert_gltf_status(
+            f,
+            gltf_importf(f,
+                         "{" GLTF_HEAD "'nodes':[{'children':[1],'scale':[%d,0,0]},"
+                         "{'mesh':0,'extensions':{'KHR_lights_punctual':{'light':0}}}],"
+                         "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'%s','spot':{}}]}}"
+                         "," GLTF_TRIANGLE "}",
+                         i, i == 0 ? "directional" : "spot"),
+            PPM_STATUS_OK);
+        assert_gltf_logged(f, 'W',
+                           "nodes[1].extensions.KHR_lights_punctual.light: left out: "
+                           "lights[0]: zero scale");
+        assert_int_equal(f->scene->punctual_count, 1);
+        assert_float_equal(vec3_max_component(f->scene->punctuals[0].intensity), 0.0f, 0.0f);
+    }
 }
 
 /* ---- extras.ppm_area ------------------------------------------------------------------------- */
@@ -365,6 +392,7 @@ static void a_negative_multiplier_leaves_the_light_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(lights_that_are_scaled_to_nothing_are_told_and_dark),
         TEST(a_radius_comes_from_the_light_or_else_its_node),
         TEST(an_angle_is_the_diameter_of_a_sun),
         TEST(a_blend_gives_a_spot_the_falloff_of_blender),

@@ -53,6 +53,33 @@ static void core_values_are_read(void **state)
     assert_string_equal(f->scene->materials[0].name, "paint");
 }
 
+/* Infinity, which does not absorb, is what leaving it out means; 0 is none that is allowed. */
+static void a_distance_of_attenuation_that_is_not_above_0_is_told(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *distance;
+        float distance_m;
+        bool is_told;
+    } cases[] = {{"", 0.0f, false},
+                 {",'attenuationDistance':0", 0.0f, true},
+                 {",'attenuationDistance':-1", 0.0f, true},
+                 {",'attenuationDistance':0.25", 0.25f, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
+                 "'KHR_materials_volume':{'thicknessFactor':1,'attenuationColor':[1,0,0]%s}}",
+                 cases[i].distance);
+        const ppm_material_desc *m = import_material(f, "x", text);
+        assert_values(&m->attenuation_distance_m, 1, &cases[i].distance_m);
+        assert_int_equal(
+            gltf_logged(f, 'W', "materials[0]: KHR_materials_volume.attenuationDistance is"),
+            cases[i].is_told);
+        gltf_reset(f);
+    }
+}
+
 static void dielectric_extensions_are_read(void **state)
 {
     const ppm_material_desc *m = import_material(
@@ -284,6 +311,7 @@ static void a_texture_coordinate_set_that_is_too_high_is_left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(a_distance_of_attenuation_that_is_not_above_0_is_told),
         TEST(the_defaults_are_those_of_the_specification),
         TEST(primitives_without_a_material_are_white_and_rough),
         TEST(core_values_are_read),

@@ -399,9 +399,25 @@ static int files_teardown(void **state)
     return folder_teardown(state) == 0 && live == 0 ? 0 : -1;
 }
 
+static void control_characters_of_names_are_shown(void **state)
+{
+    (void)state;
+    static const char *const cases[] = {"-o x.exr \"$E.exr\" \"$E.exr\"",
+                                        "-o \"no/$E.exr\" a.exr b.exr", "--\"$E\""};
+    setenv("E", "\x1b[2Jx", 1);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const outcome result = run_program(cases[i]);
+        if (result.status == 0 || strchr(result.err, '\x1b') || !strstr(result.err, "\\x1b[2Jx")) {
+            fail_msg("%s\nstatus %d, said: %s", cases[i], result.status, result.err);
+        }
+    }
+    unsetenv("E");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(control_characters_of_names_are_shown),
         cmocka_unit_test(wrong_usage_is_explained),
         cmocka_unit_test(unusable_files_are_named),
         cmocka_unit_test(files_that_do_not_belong_together_are_told_apart),

@@ -1,5 +1,5 @@
-# Includes follow the arrows: each folder may use only what is named here, and each third party is
-# seen by one folder.   cmake -DROOT=<project> -P check_includes.cmake
+#Includes follow the arrows : each folder may use only what is named here, and each third party is
+#seen by one folder.cmake - DROOT = < project> - P check_includes.cmake
 cmake_minimum_required(VERSION 3.22)
 
 set(base_uses base ppm)
@@ -16,7 +16,7 @@ set(render_uses render denoise ${photon_uses})
 set(imageio_uses imageio ${base_uses})
 set(color_uses color ${base_uses})
 set(api_uses api render imageio color gltf obj ${photon_uses})
-set(cli_uses cli ppm base/suggest.h)
+set(cli_uses cli ppm base/suggest.h base/printable.h)
 set(compare_uses compare imageio cli/option_table.h cli/values.h cli/exit_status.h ${base_uses})
 set(merge_uses merge imageio cli/option_table.h cli/exit_status.h ${base_uses})
 set(tangent_uses tangent ${base_uses})
