@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gltf/gltf_decoded.h"
+#include "gltf/gltf_extensions.h"
 #include "gltf/gltf_reader.h"
 
 /* An accessor without a buffer view is all zeros and costs no bytes in the file; so a small file
@@ -27,7 +28,10 @@ static size_t component_size(int32_t type)
         return 1;
     case PPMI_GLTF_SHORT:
     case PPMI_GLTF_UNSIGNED_SHORT:
+    case PPMI_GLTF_HALF:
         return 2;
+    case PPMI_GLTF_DOUBLE:
+        return 8;
     case PPMI_GLTF_UNSIGNED_INT:
     case PPMI_GLTF_FLOAT:
         return 4;
@@ -122,6 +126,15 @@ static uint32_t load_unsigned(const unsigned char *p, int32_t type)
     }
 }
 
+/* IEEE 754 binary16: a sign, five bits of exponent, ten of mantissa. */
+static double half_value(uint16_t bits)
+{
+    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    double size = exponent == 0 ? ldexp(mantissa, -24) : ldexp(1024 + mantissa, exponent - 25);
+    if (exponent == 31) size = mantissa == 0 ? HUGE_VAL : NAN;
+    return bits & 0x8000 ? -size : size;
+}
+
 /* Section 3.11: the inverse of how normalised integers are made. */
 static float load_float(const unsigned char *p, int32_t type, bool normalized)
 {
@@ -149,14 +162,32 @@ static float load_float(const unsigned char *p, int32_t type, bool normalized)
 
 /* ---- conversion ------------------------------------------------------------------------------ */
 
-/* How elements become values: floats or indices. */
+static double load_double(const unsigned char *p, int32_t type, bool normalized)
+{
+    uint16_t u16;
+    double value;
+    switch (type) {
+    case PPMI_GLTF_HALF:
+        memcpy(&u16, p, sizeof u16);
+        return half_value(u16);
+    case PPMI_GLTF_DOUBLE:
+        memcpy(&value, p, sizeof value);
+        return value;
+    default:
+        return (double)load_float(p, type, normalized);
+    }
+}
+
+/* How elements become values: floats, doubles or indices. */
 typedef struct conversion {
     int32_t type;
     uint32_t components, out_components;
     uint32_t rows; /* of a column; components for all but matrices */
     size_t column; /* bytes from one column to the next */
     bool normalized;
-    float *floats; /* one of the two is set */
+    const double *base; /* subtracted from each vector, or NULL */
+    float *floats;      /* one of the three is set */
+    double *doubles;
     uint32_t *indices;
 } conversion;
 
@@ -166,26 +197,32 @@ static void convert(const conversion *c, const unsigned char *element, size_t in
         c->indices[index] = load_unsigned(element, c->type);
         return;
     }
-    const size_t size = component_size(c->type);
-    float *out = c->floats + index * c->out_components;
+    const size_t size = component_size(c->type), first = index * c->out_components;
     for (uint32_t k = 0; k < c->out_components; ++k) {
         const unsigned char *at = element + k / c->rows * c->column + k % c->rows * size;
-        out[k] = k < c->components ? load_float(at, c->type, c->normalized) : 1.0f;
+        double value = k < c->components ? load_double(at, c->type, c->normalized) : 1.0;
+        if (c->base) value -= c->base[k];
+        if (c->doubles) {
+            c->doubles[first + k] = value;
+        } else {
+            c->floats[first + k] = (float)value;
+        }
     }
 }
 
 /* Whether the elements are, byte for byte, what comes out. */
 static bool is_plain(const conversion *c, const elements *from)
 {
-    const bool is_same = c->indices ? c->type == PPMI_GLTF_UNSIGNED_INT
-                                    : c->type == PPMI_GLTF_FLOAT && c->rows == c->components &&
-                                          c->components == c->out_components;
+    const bool is_same = c->indices
+                             ? c->type == PPMI_GLTF_UNSIGNED_INT
+                             : c->floats && !c->base && c->type == PPMI_GLTF_FLOAT &&
+                                   c->rows == c->components && c->components == c->out_components;
     return is_same && from->bytes && from->stride == 4 * (size_t)c->out_components;
 }
 
 static void convert_all(const conversion *c, const elements *from)
 {
-    static const unsigned char zeros[64];
+    static const unsigned char zeros[16 * sizeof(double)];
     if (is_plain(c, from)) {
         void *to = c->indices ? (void *)c->indices : (void *)c->floats;
         memcpy(to, from->bytes, from->count * from->stride);
@@ -266,38 +303,114 @@ bool ppmi_gltf_type_is_wrong(const ppmi_gltf_accessor *accessor, const ppmi_gltf
     return true;
 }
 
+/* Extensions that a file uses, be they named in its list or not. */
+static void note_type(ppmi_gltf_reader *reader, int32_t type)
+{
+    if (type == PPMI_GLTF_HALF) ppmi_gltf_note_extension(reader, "KHR_accessor_float16");
+    if (type == PPMI_GLTF_DOUBLE) ppmi_gltf_note_extension(reader, "KHR_accessor_float64");
+}
+
+/* Reads an accessor as numbers of value_size bytes, floats or doubles. */
+static ppm_status read_numbers(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                               const ppmi_gltf_format *format, const double *base,
+                               size_t value_size, void **out_values, size_t *out_count)
+{
+    char inner[PPMI_GLTF_PLACE], fault[PPMI_GLTF_FAULT];
+    const ppmi_gltf_accessor *accessor;
+    elements found;
+    *out_values = NULL;
+    ppm_status status = name_accessor(reader, index, place, inner, &accessor);
+    if (status != PPM_STATUS_OK) return status;
+    if (ppmi_gltf_type_is_wrong(accessor, format, fault)) {
+        return ppmi_gltf_invalid(reader, inner, "%s", fault);
+    }
+    status = find_base(reader, accessor, inner, &found);
+    if (status != PPM_STATUS_OK) return status;
+    note_type(reader, accessor->component_type);
+    void *const values =
+        ppmi_alloc(reader->context, found.count, format->out_components * value_size);
+    if (!values) return ppmi_gltf_out_of_memory(reader, inner);
+    const conversion c = {.type = accessor->component_type,
+                          .components = accessor->component_count,
+                          .out_components = format->out_components,
+                          .rows = accessor->component_count / accessor->column_count,
+                          .column = column_size(accessor),
+                          .normalized = accessor->normalized || format->integers_are_normalized,
+                          .base = base,
+                          .floats = value_size == sizeof(float) ? values : NULL,
+                          .doubles = value_size == sizeof(double) ? values : NULL};
+    status = convert_accessor(reader, accessor, &found, &c, inner);
+    if (status != PPM_STATUS_OK) {
+        ppmi_free(reader->context, values);
+        return status;
+    }
+    *out_values = values;
+    *out_count = found.count;
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t index, const char *place,
                                  const ppmi_gltf_format *format, float **out_values,
                                  size_t *out_count)
 {
-    char inner[PPMI_GLTF_PLACE];
-    const ppmi_gltf_accessor *accessor;
-    elements base;
-    *out_values = NULL;
-    ppm_status status = name_accessor(reader, index, place, inner, &accessor);
-    if (status != PPM_STATUS_OK) return status;
-    char fault[PPMI_GLTF_FAULT];
-    if (ppmi_gltf_type_is_wrong(accessor, format, fault)) {
-        return ppmi_gltf_invalid(reader, inner, "%s", fault);
+    void *values;
+    const ppm_status status =
+        read_numbers(reader, index, place, format, NULL, sizeof(float), &values, out_count);
+    *out_values = values;
+    return status;
+}
+
+ppm_status ppmi_gltf_read_doubles(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                                  const ppmi_gltf_format *format, double **out_values,
+                                  size_t *out_count)
+{
+    void *values;
+    const ppm_status status =
+        read_numbers(reader, index, place, format, NULL, sizeof(double), &values, out_count);
+    *out_values = values;
+    return status;
+}
+
+ppm_status ppmi_gltf_read_positions(ppmi_gltf_reader *reader, int32_t index, const char *place,
+                                    const double base[3], float **out_values, size_t *out_count)
+{
+    static const ppmi_gltf_format vec3 = {3, 3, 3, false};
+    const bool has_base = base[0] != 0.0 || base[1] != 0.0 || base[2] != 0.0;
+    void *values;
+    const ppm_status status = read_numbers(reader, index, place, &vec3, has_base ? base : NULL,
+                                           sizeof(float), &values, out_count);
+    *out_values = values;
+    return status;
+}
+
+ppm_status ppmi_gltf_mesh_base(ppmi_gltf_reader *reader, int32_t mesh, double base[3])
+{
+    char reason[PPMI_GLTF_PLACE], place[PPMI_GLTF_PLACE];
+    memset(base, 0, 3 * sizeof *base);
+    if (!ppmi_gltf_is_usable(reader, PPMI_GLTF_MESHES, mesh, reason, sizeof reason)) {
+        return PPM_STATUS_OK; /* told where it is read */
     }
-    status = find_base(reader, accessor, inner, &base);
-    if (status != PPM_STATUS_OK) return status;
-    const conversion c = {
-        .type = accessor->component_type,
-        .components = accessor->component_count,
-        .out_components = format->out_components,
-        .rows = accessor->component_count / accessor->column_count,
-        .column = column_size(accessor),
-        .normalized = accessor->normalized || format->integers_are_normalized,
-        .floats = ppmi_alloc(reader->context, base.count, format->out_components * sizeof(float))};
-    if (!c.floats) return ppmi_gltf_out_of_memory(reader, inner);
-    status = convert_accessor(reader, accessor, &base, &c, inner);
-    if (status != PPM_STATUS_OK) {
-        ppmi_free(reader->context, c.floats);
-        return status;
+    const ppmi_gltf_mesh *from = &reader->document->meshes[mesh];
+    for (uint32_t i = 0; i < from->primitive_count; ++i) {
+        const int32_t position = ppmi_gltf_find_attribute(
+            from->primitives[i].attributes, from->primitives[i].attribute_count, "POSITION");
+        elements found;
+        double first[3];
+        if (!ppmi_gltf_is_usable(reader, PPMI_GLTF_ACCESSORS, position, reason, sizeof reason)) {
+            continue;
+        }
+        const ppmi_gltf_accessor *accessor = &reader->document->accessors[position];
+        if (accessor->component_type != PPMI_GLTF_DOUBLE || accessor->component_count != 3)
+            continue;
+        ppmi_gltf_place(place, "meshes[%d].primitives[%u].attributes.POSITION (accessors[%d])",
+                        (int)mesh, (unsigned)i, (int)position);
+        const ppm_status status = find_base(reader, accessor, place, &found);
+        if (status != PPM_STATUS_OK || !found.bytes) return status;
+        memcpy(first, found.bytes, sizeof first);
+        for (int k = 0; k < 3; ++k)
+            base[k] = fabs(first[k]) < 1e15 ? nearbyint(first[k]) : 0.0;
+        return PPM_STATUS_OK;
     }
-    *out_values = c.floats;
-    *out_count = base.count;
     return PPM_STATUS_OK;
 }
 

@@ -51,6 +51,34 @@ static void apply_clipping(ppmi_gltf_reader *reader, const char *place,
                            "znear and zfar, for what cameras see themselves; --no-clip");
 }
 
+/* EXT_camera_physical: the diameter of the lens is focalLength / fStop. The scene's f-number is
+ * that of the lens with the same field of view before a sensor whose longer side is 36 mm; the
+ * field of view is the core camera's, which the proposal calls authoritative. */
+static void apply_lens(ppmi_gltf_reader *reader, const char *place, const ppmi_gltf_camera *camera,
+                       ppm_camera_desc *desc)
+{
+    const double *sensor = camera->sensor_m;
+    if (!camera->is_physical || camera->is_orthographic || camera->f_stop == 0.0) return;
+    if (!(camera->focal_length_m > 0.0 && sensor[0] > 0.0 && sensor[1] > 0.0 &&
+          camera->f_stop > 0.0 && camera->focus_distance_m >= 0.0)) {
+        ppmi_gltf_warn(reader, place,
+                       "EXT_camera_physical left out: focalLength, sensorSize and fStop must be "
+                       "above 0, focusDistance not below");
+        return;
+    }
+    const double aspect = camera->aspect > 0.0 ? camera->aspect : sensor[0] / sensor[1];
+    const double focal_36_m = 0.018 / (tan(0.5 * camera->y_fov_rad) * fmax(aspect, 1.0));
+    const double f_number = focal_36_m * camera->f_stop / camera->focal_length_m;
+    const double focus_m = camera->focus_distance_m;
+    if (!(f_number >= 1e-3 && f_number < 1e30) || !(focus_m == 0.0 || focus_m >= 1e-6) ||
+        focus_m > 1e18) {
+        ppmi_gltf_warn(reader, place, "EXT_camera_physical left out: its lens is of no use");
+        return;
+    }
+    desc->f_number = (float)f_number;
+    desc->focus_distance_m = (float)focus_m;
+}
+
 ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
 {
     const ppmi_gltf_node *from = &reader->document->nodes[node];
@@ -70,6 +98,7 @@ ppm_status ppmi_gltf_add_camera(ppmi_gltf_reader *reader, int32_t node)
         .aspect = (float)camera->aspect};
     apply_shift(reader, place, camera, &desc);
     apply_clipping(reader, place, camera, &desc);
+    apply_lens(reader, place, camera, &desc);
     const char *fault = camera_fault(camera);
     for (uint32_t i = 0; i < steps && !fault; ++i) {
         fault = ppmi_gltf_rigid_transform(ppmi_gltf_pose_world(reader->pose, node, i, steps), true,

@@ -199,6 +199,22 @@ static const char *number_fault(const gltf_field *field, const ppmi_gltf_number 
     return NULL;
 }
 
+/* Among 5120 .. 5131 there are numbers of no type. */
+static bool check_component_type(checker *c, const gltf_field *field, size_t begin,
+                                 const ppmi_gltf_number *number)
+{
+    const int type = (int)number->value;
+    if (type == PPMI_GLTF_HALF) {
+        char text[PPMI_GLTF_PATCH_SHORT];
+        snprintf(text, sizeof text, "%d", PPMI_GLTF_HALF_FOR_TINYGLTF);
+        return ppmi_gltf_patch_short(c->context, &c->patches, begin, c->json.at, text) ||
+               fail_memory(c);
+    }
+    const bool is_type = type <= PPMI_GLTF_UNSIGNED_SHORT || type == PPMI_GLTF_UNSIGNED_INT ||
+                         type == PPMI_GLTF_FLOAT || type == PPMI_GLTF_DOUBLE;
+    return is_type ? normalise(c, begin, number, true) : complain(c, field, begin, "out of range");
+}
+
 static bool check_number(checker *c, const gltf_field *field, ppmi_gltf_number *number)
 {
     number->value = 0.0;
@@ -210,6 +226,7 @@ static bool check_number(checker *c, const gltf_field *field, ppmi_gltf_number *
     if (!ppmi_gltf_json_number(&c->json, number)) return false;
     const char *fault = number_fault(field, number);
     if (fault) return complain(c, field, begin, fault);
+    if (field->flags & GLTF_COMPONENT_TYPE) return check_component_type(c, field, begin, number);
     return normalise(c, begin, number, field->kind != GLTF_NUMBER && field->kind != GLTF_NUMBERS);
 }
 

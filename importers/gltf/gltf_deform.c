@@ -67,21 +67,21 @@ static ppm_status read_inverse_binds(ppmi_gltf_reader *reader, int32_t index,
     static const ppmi_gltf_format matrix = {16, 16, 16, false};
     const ppmi_gltf_skin *skin = &reader->document->skins[index];
     char place[PPMI_GLTF_PLACE];
-    float *values = NULL;
+    double *values = NULL;
     size_t count = 0;
     ppmi_gltf_place(place, "skins[%d].inverseBindMatrices", (int)index);
     deform->inverse_binds =
         ppmi_alloc_zeroed(reader->context, skin->joint_count, sizeof *deform->inverse_binds);
     if (!deform->inverse_binds) return ppmi_gltf_out_of_memory(reader, place);
     if (skin->inverse_bind_matrices >= 0) {
-        const ppm_status status = ppmi_gltf_read_floats(reader, skin->inverse_bind_matrices, place,
-                                                        &matrix, &values, &count);
+        const ppm_status status = ppmi_gltf_read_doubles(reader, skin->inverse_bind_matrices, place,
+                                                         &matrix, &values, &count);
         if (status != PPM_STATUS_OK) return status;
     }
     const bool is_short = values && count < skin->joint_count;
     for (size_t i = 0; i < skin->joint_count && !is_short; ++i) {
         for (size_t k = 0; k < 16; ++k) {
-            deform->inverse_binds[i][k] = values ? (double)values[16 * i + k] : k % 5 == 0;
+            deform->inverse_binds[i][k] = values ? values[16 * i + k] : k % 5 == 0;
         }
     }
     ppmi_free(reader->context, values);

@@ -19,6 +19,17 @@ typedef struct ppmi_gltf_geometry {
     ppm_material_id material;
 } ppmi_gltf_geometry;
 
+/* In place of an index: a strip, fan or loop ends, and another one begins behind it. */
+#define PPMI_GLTF_RESTART UINT32_MAX
+
+/* Where the part of a list that begins at `at` ends: at a restart, or the end of the list. */
+static inline size_t ppmi_gltf_run_end(const uint32_t *indices, size_t count, size_t at)
+{
+    while (at < count && indices[at] != PPMI_GLTF_RESTART)
+        ++at;
+    return at;
+}
+
 /* The triangle list of count indices in a mode (PPMI_GLTF_TRIANGLES, _STRIP, _FAN). *out_indices is
  * the caller's; NULL for no triangle. Returns OK or OUT_OF_MEMORY, unreported. */
 ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,

@@ -19,24 +19,37 @@ static size_t element_count(int32_t mode, size_t count)
     }
 }
 
-ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const uint32_t *indices,
-                                      size_t count, uint32_t **out_indices, size_t *out_elements)
+/* Adds the elements of a run of indices without restarts; returns how many there are then. */
+static size_t add_run(int32_t mode, const uint32_t *indices, size_t count, uint32_t *out,
+                      size_t kept)
 {
     const size_t elements = element_count(mode, count);
     const size_t sides = mode == PPMI_GLTF_POINTS ? 1 : 2;
-    *out_indices = NULL;
-    *out_elements = 0;
-    if (elements == 0) return PPM_STATUS_OK;
-    uint32_t *out = ppmi_alloc(context, elements, sides * sizeof *out);
-    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
-    for (size_t i = 0; i < elements; ++i) {
+    for (size_t i = 0; i < elements; ++i, ++kept) {
         const size_t begin = mode == PPMI_GLTF_LINES ? 2 * i : i;
         for (size_t k = 0; k < sides; ++k) {
-            out[sides * i + k] = indices[(begin + k) % count]; /* a loop ends where it began */
+            out[sides * kept + k] = indices[(begin + k) % count]; /* a loop ends where it began */
         }
     }
+    return kept;
+}
+
+ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const uint32_t *indices,
+                                      size_t count, uint32_t **out_indices, size_t *out_elements)
+{
+    const size_t most = element_count(mode, count); /* restarts make it less */
+    size_t kept = 0, end;
+    *out_indices = NULL;
+    *out_elements = 0;
+    if (most == 0) return PPM_STATUS_OK;
+    uint32_t *out = ppmi_alloc(context, most, 2 * sizeof *out);
+    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
+    for (size_t begin = 0; begin < count; begin = end + 1) {
+        end = ppmi_gltf_run_end(indices, count, begin);
+        kept = add_run(mode, indices + begin, end - begin, out, kept);
+    }
     *out_indices = out;
-    *out_elements = elements;
+    *out_elements = kept;
     return PPM_STATUS_OK;
 }
 

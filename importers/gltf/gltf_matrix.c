@@ -16,6 +16,15 @@ void ppmi_gltf_matrix_multiply(const double a[16], const double b[16], double ou
     }
 }
 
+void ppmi_gltf_matrix_apply(const double m[16], const double point[3], double out[3])
+{
+    double sum[3];
+    for (int i = 0; i < 3; ++i)
+        sum[i] = m[i] * point[0] + m[4 + i] * point[1] + m[8 + i] * point[2] + m[12 + i];
+    for (int i = 0; i < 3; ++i)
+        out[i] = sum[i];
+}
+
 void ppmi_gltf_matrix_compose(const double t[3], const double r[4], const double s[3],
                               double out[16])
 {

@@ -6,6 +6,9 @@
 
 void ppmi_gltf_matrix_multiply(const double a[16], const double b[16], double out[16]);
 
+/* m applied to a point; out may be a part of m. */
+void ppmi_gltf_matrix_apply(const double m[16], const double point[3], double out[3]);
+
 /* translation * rotation * scale. A quaternion need not have unit length; zero is no rotation. */
 void ppmi_gltf_matrix_compose(const double translation[3], const double rotation[4],
                               const double scale[3], double out[16]);

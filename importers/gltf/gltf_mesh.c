@@ -1,5 +1,6 @@
 /* Meshes: the attributes and indices of their primitives, read and handed to the scene. Anything
  * wrong with them is an error of the file: a guess would show wrong geometry. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -100,6 +101,40 @@ static ppm_status read_attributes(ppmi_gltf_reader *reader, const ppmi_gltf_prim
     return status;
 }
 
+/* Whether a value in the list of a strip, fan or loop is PPMI_GLTF_RESTART. */
+static bool has_restarts(const ppmi_gltf_primitive *primitive, uint32_t index)
+{
+    const bool is_joined =
+        primitive->mode == PPMI_GLTF_LINE_LOOP || primitive->mode == PPMI_GLTF_LINE_STRIP ||
+        primitive->mode == PPMI_GLTF_TRIANGLE_STRIP || primitive->mode == PPMI_GLTF_TRIANGLE_FAN;
+    return is_joined && index == PPMI_GLTF_RESTART;
+}
+
+/* KHR_mesh_primitive_restart: the largest value of the type that indices are stored in. Viewers in
+ * browsers restart there whatever the file says (WebGL 2.0 specification, section 5.18). */
+static void mark_restarts(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
+                          const char *place, uint32_t *indices, size_t count)
+{
+    const int32_t type = reader->document->accessors[primitive->indices].component_type;
+    const uint32_t largest = type == PPMI_GLTF_UNSIGNED_BYTE    ? UINT8_MAX
+                             : type == PPMI_GLTF_UNSIGNED_SHORT ? UINT16_MAX
+                                                                : UINT32_MAX;
+    size_t restarts = 0;
+    if (!has_restarts(primitive, PPMI_GLTF_RESTART)) return;
+    for (size_t i = 0; i < count; ++i) {
+        if (indices[i] != largest) continue;
+        indices[i] = PPMI_GLTF_RESTART;
+        ++restarts;
+    }
+    if (restarts == 0 || ppmi_gltf_find_feature(reader, "KHR_mesh_primitive_restart")) return;
+    ppmi_gltf_warn(reader, place,
+                   "%zu indices are %u: the primitive starts anew there, as by "
+                   "KHR_mesh_primitive_restart, which the file does not name",
+                   restarts, (unsigned)largest);
+    ppmi_gltf_note_feature(reader, "restarts without KHR_mesh_primitive_restart",
+                           PPM_FEATURE_IGNORED, "that the extension is not named");
+}
+
 /* The index list, or 0, 1, 2 ... without one. */
 static ppm_status read_index_list(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
                                   const char *place, size_t vertex_count, uint32_t **out,
@@ -119,8 +154,9 @@ static ppm_status read_index_list(ppmi_gltf_reader *reader, const ppmi_gltf_prim
     const ppm_status status =
         ppmi_gltf_read_indices(reader, primitive->indices, inner, out, out_count);
     if (status != PPM_STATUS_OK) return status;
+    mark_restarts(reader, primitive, inner, *out, *out_count);
     for (size_t i = 0; i < *out_count; ++i) {
-        if ((*out)[i] < vertex_count) continue;
+        if ((*out)[i] < vertex_count || has_restarts(primitive, (*out)[i])) continue;
         return ppmi_gltf_invalid(reader, inner, "index %zu is %u, there are %zu vertices", i,
                                  (unsigned)(*out)[i], vertex_count);
     }
@@ -179,9 +215,9 @@ static ppm_status read_elements(ppmi_gltf_reader *reader, const ppmi_gltf_primit
     return status;
 }
 
-/* Fills g; g->index_count stays 0 for what cannot be drawn. */
+/* Fills g, with positions from base on; g->index_count stays 0 for what cannot be drawn. */
 static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primitive *primitive,
-                                 const char *place, ppmi_gltf_geometry *g)
+                                 const char *place, const double base[3], ppmi_gltf_geometry *g)
 {
     char inner[PPMI_GLTF_PLACE];
     const int32_t position =
@@ -191,8 +227,8 @@ static ppm_status read_primitive(ppmi_gltf_reader *reader, const ppmi_gltf_primi
         return PPM_STATUS_OK;
     }
     ppmi_gltf_place(inner, "%s.attributes.POSITION", place);
-    ppm_status status = ppmi_gltf_read_floats(reader, position, inner, &vec3_format, &g->positions,
-                                              &g->vertex_count);
+    ppm_status status =
+        ppmi_gltf_read_positions(reader, position, inner, base, &g->positions, &g->vertex_count);
     if (status != PPM_STATUS_OK) return status;
     g->source_count = g->vertex_count;
     if (g->vertex_count > UINT32_MAX) {
@@ -306,6 +342,24 @@ static ppm_status emit(ppmi_gltf_reader *reader, const ppmi_gltf_mesh *mesh,
     return ppm_scene_add_mesh(reader->scene, &desc, out_id);
 }
 
+/* What deforms a mesh works on floats of its own coordinates. */
+static ppm_status choose_base(ppmi_gltf_reader *reader, int32_t mesh,
+                              const ppmi_gltf_deform *deform, double base[3])
+{
+    char place[PPMI_GLTF_PLACE];
+    const ppm_status status = ppmi_gltf_mesh_base(reader, mesh, base);
+    const double most = fmax(fabs(base[0]), fmax(fabs(base[1]), fabs(base[2])));
+    if (!deform || status != PPM_STATUS_OK) return status;
+    memset(base, 0, 3 * sizeof *base);
+    if (most < 1000.0) return status;
+    ppmi_gltf_place(place, "meshes[%d]", (int)mesh);
+    ppmi_gltf_warn(reader, place,
+                   "it is deformed %.0f m away from its point 0: its doubles are "
+                   "rounded to floats, by %g m",
+                   most, most * ldexp(1.0, -24));
+    return status;
+}
+
 static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf_deform *deform,
                               ppm_mesh_id *out_id)
 {
@@ -318,10 +372,12 @@ static ppm_status import_mesh(ppmi_gltf_reader *reader, int32_t index, ppmi_gltf
         ppmi_alloc_zeroed(reader->context, mesh->primitive_count, sizeof *all);
     ppm_primitive_desc *descs = ppmi_alloc(reader->context, mesh->primitive_count, sizeof *descs);
     ppm_status status = PPM_STATUS_OK;
+    double base[3];
     if (!all || !descs) status = ppmi_gltf_out_of_memory(reader, place);
+    if (status == PPM_STATUS_OK) status = choose_base(reader, index, deform, base);
     for (uint32_t i = 0; i < mesh->primitive_count && status == PPM_STATUS_OK; ++i) {
         ppmi_gltf_place(place, "meshes[%d].primitives[%u]", (int)index, (unsigned)i);
-        status = read_primitive(reader, &mesh->primitives[i], place, &all[i]);
+        status = read_primitive(reader, &mesh->primitives[i], place, base, &all[i]);
         if (status == PPM_STATUS_OK && deform && all[i].index_count > 0) {
             status = ppmi_gltf_deform_read(reader, deform, &mesh->primitives[i], place, &all[i]);
         }

@@ -43,12 +43,18 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
         .light_group = ppmi_gltf_light_group(reader, index, "", group, sizeof group),
         .is_catcher = node->is_catcher};
     float motion[16 * PPM_MAX_MOTION_STEPS];
+    double base[3] = {0.0, 0.0, 0.0};
+    if (!ppmi_gltf_is_deformed(reader, index)) {
+        const ppm_status status = ppmi_gltf_mesh_base(reader, node->mesh, base);
+        if (status != PPM_STATUS_OK) return status;
+    }
     for (uint32_t i = 0; i < steps; ++i) {
         const double *world =
             is_skinned ? identity : ppmi_gltf_pose_world(reader->pose, index, i, steps);
         double product[16];
-        if (local) ppmi_gltf_matrix_multiply(world, local, product);
-        if (ppmi_gltf_matrix_to_floats(local ? product : world, motion + 16 * (size_t)i)) continue;
+        ppmi_gltf_matrix_multiply(world, local ? local : identity, product);
+        ppmi_gltf_matrix_apply(product, base, product + 12);
+        if (ppmi_gltf_matrix_to_floats(product, motion + 16 * (size_t)i)) continue;
         ppmi_gltf_place(place, "nodes[%d]", (int)index);
         return ppmi_gltf_invalid(reader, place, "its transform in the world is too large");
     }
@@ -63,7 +69,7 @@ static ppm_status add_instance(ppmi_gltf_reader *reader, int32_t index, ppm_mesh
 /* One attribute of EXT_mesh_gpu_instancing; *out stays NULL when it is absent. */
 static ppm_status read_instance_attribute(ppmi_gltf_reader *reader, const ppmi_gltf_node *node,
                                           const char *place, const char *name, uint32_t components,
-                                          float **out, size_t *count)
+                                          double **out, size_t *count)
 {
     const ppmi_gltf_format format = {components, components, components, true};
     char inner[PPMI_GLTF_PLACE];
@@ -71,7 +77,7 @@ static ppm_status read_instance_attribute(ppmi_gltf_reader *reader, const ppmi_g
     for (uint32_t i = 0; i < node->instance_attribute_count; ++i) {
         if (strcmp(node->instance_attributes[i].name, name) != 0) continue;
         ppmi_gltf_place(inner, "%s.%s", place, name);
-        const ppm_status status = ppmi_gltf_read_floats(
+        const ppm_status status = ppmi_gltf_read_doubles(
             reader, node->instance_attributes[i].accessor, inner, &format, out, &this_count);
         if (status != PPM_STATUS_OK) return status;
         if (*count != 0 && *count != this_count) {
@@ -83,19 +89,12 @@ static ppm_status read_instance_attribute(ppmi_gltf_reader *reader, const ppmi_g
     return PPM_STATUS_OK;
 }
 
-static void widen(const float *from, size_t count, double *out)
-{
-    for (size_t i = 0; i < count; ++i) {
-        out[i] = (double)from[i];
-    }
-}
-
 /* EXT_mesh_gpu_instancing: each instance has a transform of its own inside of the node's. */
 static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm_mesh_id mesh)
 {
     const ppmi_gltf_node *node = &reader->document->nodes[index];
     char place[PPMI_GLTF_PLACE];
-    float *translations = NULL, *rotations = NULL, *scales = NULL;
+    double *translations = NULL, *rotations = NULL, *scales = NULL;
     size_t count = 0;
     ppmi_gltf_place(place, "nodes[%d].extensions.EXT_mesh_gpu_instancing.attributes", (int)index);
     ppm_status status =
@@ -109,9 +108,9 @@ static ppm_status add_gpu_instances(ppmi_gltf_reader *reader, int32_t index, ppm
     for (size_t i = 0; i < count && status == PPM_STATUS_OK; ++i) {
         double t[3] = {0.0, 0.0, 0.0}, r[4] = {0.0, 0.0, 0.0, 1.0}, s[3] = {1.0, 1.0, 1.0};
         double local[16];
-        if (translations) widen(translations + 3 * i, 3, t);
-        if (rotations) widen(rotations + 4 * i, 4, r);
-        if (scales) widen(scales + 3 * i, 3, s);
+        if (translations) memcpy(t, translations + 3 * i, sizeof t);
+        if (rotations) memcpy(r, rotations + 4 * i, sizeof r);
+        if (scales) memcpy(s, scales + 3 * i, sizeof s);
         ppmi_gltf_matrix_compose(t, r, s, local);
         status = add_instance(reader, index, mesh, i, local);
     }

@@ -140,29 +140,45 @@ static void place_all(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, d
 
 /* ---- the origin ------------------------------------------------------------------------------ */
 
-/* Where a node's mesh is, at rest. */
-static const double *place_of_mesh(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p,
-                                   int32_t index)
+/* The node at which a node's mesh is, at rest; -1: nowhere. */
+static int32_t node_of_mesh(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, int32_t index)
 {
     const ppmi_gltf_document *d = reader->document;
     const ppmi_gltf_node *node = &d->nodes[index];
-    if (node->mesh < 0) return NULL;
-    if (node->skin < 0) return p->middle[index] + 12;
-    if ((size_t)node->skin >= d->skin_count || d->skins[node->skin].joint_count == 0) return NULL;
+    if (node->mesh < 0) return -1;
+    if (node->skin < 0) return index;
+    if ((size_t)node->skin >= d->skin_count || d->skins[node->skin].joint_count == 0) return -1;
     const int32_t joint = d->skins[node->skin].joints[0];
     const bool is_there =
         joint >= 0 && (size_t)joint < d->node_count && p->parents[joint] != NOT_IN_SCENE;
-    return is_there ? p->middle[joint] + 12 : NULL;
+    return is_there ? joint : -1;
+}
+
+/* Where it is; false where it is nowhere. */
+static bool place_of_mesh(ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, int32_t index,
+                          double out[3])
+{
+    const int32_t node = node_of_mesh(reader, p, index);
+    double base[3] = {0.0, 0.0, 0.0};
+    if (node < 0) return false;
+    /* a broken one is told where it is read */
+    if (node == index &&
+        ppmi_gltf_mesh_base(reader, reader->document->nodes[index].mesh, base) != PPM_STATUS_OK) {
+        return false;
+    }
+    ppmi_gltf_matrix_apply(p->middle[node], base, out);
+    return true;
 }
 
 /* The middle of the places of all meshes; false when there are none. */
-static bool find_middle(const ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, double middle[3],
+static bool find_middle(ppmi_gltf_reader *reader, const ppmi_gltf_pose *p, double middle[3],
                         double *out_size)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t k = 0; k < p->shown_count; ++k) {
-        const double *at = place_of_mesh(reader, p, p->order[k]);
-        for (int i = 0; at && i < 3; ++i) {
+        double at[3];
+        const bool is_there = place_of_mesh(reader, p, p->order[k], at);
+        for (int i = 0; is_there && i < 3; ++i) {
             low[i] = fmin(low[i], at[i]);
             high[i] = fmax(high[i], at[i]);
         }

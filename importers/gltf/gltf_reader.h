@@ -168,6 +168,20 @@ ppm_status ppmi_gltf_read_floats(ppmi_gltf_reader *reader, int32_t accessor, con
                                  const ppmi_gltf_format *format, float **out_values,
                                  size_t *out_count);
 
+/* The same as doubles, for what is composed before it is rounded. */
+ppm_status ppmi_gltf_read_doubles(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
+                                  const ppmi_gltf_format *format, double **out_values,
+                                  size_t *out_count);
+
+/* Positions less base, subtracted before they are rounded to floats. */
+ppm_status ppmi_gltf_read_positions(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
+                                    const double base[3], float **out_values, size_t *out_count);
+
+/* The place that is the point 0 of a mesh in the scene, in the mesh's own coordinates: whole metres
+ * beside its first vertex where positions are doubles (KHR_accessor_float64), else 0. Instances are
+ * moved by it, in double precision. */
+ppm_status ppmi_gltf_mesh_base(ppmi_gltf_reader *reader, int32_t mesh, double base[3]);
+
 /* Reads an accessor of unsigned integers. */
 ppm_status ppmi_gltf_read_indices(ppmi_gltf_reader *reader, int32_t accessor, const char *place,
                                   uint32_t **out_values, size_t *out_count);

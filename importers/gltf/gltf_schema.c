@@ -42,8 +42,8 @@ static const gltf_field sparse[] = {
 static const gltf_field accessor[] = {
     INDEX("bufferView", GLTF_VITAL),
     SIZE("byteOffset", GLTF_VITAL),
-    FIELD("componentType", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 5120,
-          .max = 5126),
+    FIELD("componentType", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED | GLTF_COMPONENT_TYPE,
+          .min = 5120, .max = 5131),
     FIELD("normalized", GLTF_BOOLEAN, .flags = GLTF_VITAL),
     FIELD("count", GLTF_INTEGER, .flags = GLTF_VITAL | GLTF_REQUIRED, .min = 1,
           .max = SIZE_MAX_EXACT),
@@ -192,6 +192,10 @@ static const gltf_field orthographic[] = {
     FIELD("zfar", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED),
     FIELD("znear", GLTF_NUMBER, .flags = GLTF_VITAL | GLTF_REQUIRED), END};
 static const gltf_field camera_extras[] = {NUMBERS("ppm_shift", 2, 0), END};
+static const gltf_field physical_camera[] = {
+    FIELD("focalLength", GLTF_NUMBER, .flags = GLTF_REQUIRED),
+    NUMBERS("sensorSize", 2, GLTF_REQUIRED), NUMBER("fStop"), NUMBER("focusDistance"), END};
+static const gltf_field camera_extensions[] = {OBJECT("EXT_camera_physical", physical_camera), END};
 static const gltf_field camera[] = {
     STRING("name"),
     FIELD("extras", GLTF_OBJECT, .flags = GLTF_FREE_FORM, .fields = camera_extras),
@@ -199,6 +203,7 @@ static const gltf_field camera[] = {
           .choices = " perspective orthographic "),
     VITAL_OBJECT("perspective", perspective, 0),
     VITAL_OBJECT("orthographic", orthographic, 0),
+    OBJECT("extensions", camera_extensions),
     END};
 
 static const gltf_field spot[] = {NUMBER("innerConeAngle"), NUMBER("outerConeAngle"), END};

@@ -25,7 +25,8 @@ enum {
     GLTF_VITAL = 2,        /* a wrong value breaks the element; otherwise it becomes null */
     GLTF_NAMES_MEMBER = 4, /* the chosen string names another member, which is then required */
     GLTF_EMPTY_FOR_TINYGLTF = 8, /* tinygltf gets [] */
-    GLTF_FREE_FORM = 16,  /* OBJECT: a value of any other kind is as good, and not looked at */
+    GLTF_FREE_FORM = 16,      /* OBJECT: a value of any other kind is as good, and not looked at */
+    GLTF_COMPONENT_TYPE = 64, /* INTEGER: the componentType of an accessor */
     GLTF_KEEPS_EMPTY = 32 /* LIST in an extension: tinygltf drops what has no members, and so shifts
                              the indices; each element gets one more */
 };

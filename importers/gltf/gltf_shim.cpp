@@ -89,7 +89,9 @@ ppmi_gltf_accessor copy_accessor(const tinygltf::Accessor &from)
     ppmi_gltf_accessor out = {};
     out.buffer_view = from.bufferView;
     out.byte_offset = from.byteOffset;
-    out.component_type = from.componentType;
+    out.component_type = from.componentType == PPMI_GLTF_HALF_FOR_TINYGLTF
+                             ? static_cast<int32_t>(PPMI_GLTF_HALF)
+                             : from.componentType;
     copy_shape(from.type, &out);
     out.normalized = from.normalized;
     out.count = from.count;

@@ -22,8 +22,14 @@ enum {
     PPMI_GLTF_SHORT = 5122,
     PPMI_GLTF_UNSIGNED_SHORT = 5123,
     PPMI_GLTF_UNSIGNED_INT = 5125,
-    PPMI_GLTF_FLOAT = 5126
+    PPMI_GLTF_FLOAT = 5126,
+    PPMI_GLTF_DOUBLE = 5130, /* KHR_accessor_float64 */
+    PPMI_GLTF_HALF = 5131    /* KHR_accessor_float16 */
 };
+
+/* tinygltf takes no 5131 and does take 5124, which glTF does not have: gltf_check.c writes one for
+ * the other. */
+enum { PPMI_GLTF_HALF_FOR_TINYGLTF = 5124 };
 
 /* mode of a primitive */
 enum {
@@ -187,8 +193,10 @@ typedef struct ppmi_gltf_camera {
     bool is_orthographic;
     double y_fov_rad, aspect; /* aspect 0: not said */
     double x_mag, y_mag;
-    double z_near, z_far; /* z_far 0: not said */
-    double shift[2];      /* extras.ppm_shift */
+    double z_near, z_far;                                         /* z_far 0: not said */
+    double shift[2];                                              /* extras.ppm_shift */
+    bool is_physical;                                             /* EXT_camera_physical */
+    double focal_length_m, sensor_m[2], f_stop, focus_distance_m; /* the last two 0: not said */
 } ppmi_gltf_camera;
 
 enum { PPMI_GLTF_LIGHT_POINT, PPMI_GLTF_LIGHT_SPOT, PPMI_GLTF_LIGHT_DIRECTIONAL };

@@ -76,8 +76,20 @@ ppmi_gltf_camera copy_camera(const tinygltf::Camera &from)
                             from.orthographic.ymag,
                             is_orthographic ? from.orthographic.znear : from.perspective.znear,
                             is_orthographic ? from.orthographic.zfar : from.perspective.zfar,
-                            {0.0, 0.0}};
+                            {0.0, 0.0},
+                            false,
+                            0.0,
+                            {0.0, 0.0},
+                            0.0,
+                            0.0};
     numbers_or(from.extras, "ppm_shift", out.shift, 2, 0.0);
+    const auto physical = from.extensions.find("EXT_camera_physical");
+    if (physical == from.extensions.end()) return out;
+    out.is_physical = true;
+    out.focal_length_m = number_or(physical->second, "focalLength", 0.0);
+    numbers_or(physical->second, "sensorSize", out.sensor_m, 2, 0.0);
+    out.f_stop = number_or(physical->second, "fStop", 0.0);
+    out.focus_distance_m = number_or(physical->second, "focusDistance", 0.0);
     return out;
 }
 

@@ -15,12 +15,12 @@ static void normalize(double *q)
 }
 
 /* Appendix C.4: along the shorter of the two arcs. */
-static void slerp(const float *from, const float *to, double t, double *out)
+static void slerp(const double *from, const double *to, double t, double *out)
 {
     double a[4], b[4], cosine = 0.0;
     for (int i = 0; i < 4; ++i) {
-        a[i] = (double)from[i];
-        b[i] = (double)to[i];
+        a[i] = from[i];
+        b[i] = to[i];
     }
     normalize(a);
     normalize(b);
@@ -39,21 +39,21 @@ static void slerp(const float *from, const float *to, double t, double *out)
     normalize(out);
 }
 
-static void linear(const float *from, const float *to, uint32_t width, double t, double *out)
+static void linear(const double *from, const double *to, uint32_t width, double t, double *out)
 {
     for (uint32_t i = 0; i < width; ++i) {
-        out[i] = (1.0 - t) * (double)from[i] + t * (double)to[i];
+        out[i] = (1.0 - t) * from[i] + t * to[i];
     }
 }
 
 /* Appendix C.5: Hermite's basis; tangents are per second. */
-static void cubic(const float *from, const float *to, uint32_t width, double span, double t,
+static void cubic(const double *from, const double *to, uint32_t width, double span, double t,
                   double *out)
 {
     const double t2 = t * t, t3 = t2 * t;
     for (uint32_t i = 0; i < width; ++i) {
-        const double value = (double)from[width + i], out_tangent = (double)from[2 * width + i];
-        const double in_tangent = (double)to[i], next = (double)to[width + i];
+        const double value = from[width + i], out_tangent = from[2 * width + i];
+        const double in_tangent = to[i], next = to[width + i];
         out[i] = (2.0 * t3 - 3.0 * t2 + 1.0) * value + span * (t3 - 2.0 * t2 + t) * out_tangent +
                  (3.0 * t2 - 2.0 * t3) * next + span * (t3 - t2) * in_tangent;
     }
@@ -73,7 +73,7 @@ static size_t find_key(const ppmi_gltf_track *track, double time_s)
     size_t low = 0, high = track->key_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        const double begin = (double)track->times[middle];
+        const double begin = track->times[middle];
         if (begin - slack(begin) <= time_s) {
             low = middle;
         } else {
@@ -88,17 +88,17 @@ void ppmi_gltf_track_eval(const ppmi_gltf_track *track, double time_s, double *o
     const bool is_cubic = track->interpolation == PPMI_GLTF_CUBICSPLINE;
     const uint32_t width = track->width;
     const size_t stride = (size_t)width * (is_cubic ? 3 : 1), key = find_key(track, time_s);
-    const float *from = track->values + key * stride, *to = from + stride;
-    const double begin = (double)track->times[key];
+    const double *from = track->values + key * stride, *to = from + stride;
+    const double begin = track->times[key];
     const bool is_held = time_s <= begin + slack(begin) || key + 1 == track->key_count;
     if (is_held || track->interpolation == PPMI_GLTF_STEP) {
         for (uint32_t i = 0; i < width; ++i) {
-            out[i] = (double)from[(is_cubic ? width : 0) + i];
+            out[i] = from[(is_cubic ? width : 0) + i];
         }
         if (track->is_rotation) normalize(out);
         return;
     }
-    const double span = (double)track->times[key + 1] - begin; /* above 0: see find_key */
+    const double span = track->times[key + 1] - begin; /* above 0: see find_key */
     const double t = (time_s - begin) / span;
     if (is_cubic) {
         cubic(from, to, width, span, t, out);
@@ -124,7 +124,7 @@ static ppm_status check_times(ppmi_gltf_reader *reader, const ppmi_gltf_track *t
         if (i == 0 || track->times[i] >= track->times[i - 1]) continue;
         return ppmi_gltf_invalid(reader, place,
                                  "times must increase: key %zu is at %g s, the one before at %g s",
-                                 i, (double)track->times[i], (double)track->times[i - 1]);
+                                 i, track->times[i], track->times[i - 1]);
     }
     return PPM_STATUS_OK;
 }
@@ -139,7 +139,7 @@ static ppm_status read_output(ppmi_gltf_reader *reader, int32_t accessor,
     const size_t expected = track->key_count * per_key * (format->width / components);
     size_t count;
     const ppm_status status =
-        ppmi_gltf_read_floats(reader, accessor, place, &wanted, &track->values, &count);
+        ppmi_gltf_read_doubles(reader, accessor, place, &wanted, &track->values, &count);
     if (status != PPM_STATUS_OK) return status;
     if (count != expected) {
         return ppmi_gltf_invalid(reader, place, "%zu elements, expected %zu for %zu keys", count,
@@ -169,7 +169,7 @@ ppm_status ppmi_gltf_track_read(ppmi_gltf_reader *reader, int32_t animation, int
     out->interpolation = format->is_flag ? PPMI_GLTF_STEP : s->interpolation;
     ppmi_gltf_place(inner, "animations[%d].samplers[%d].input", (int)animation, (int)sampler);
     ppm_status status =
-        ppmi_gltf_read_floats(reader, s->input, inner, &scalar, &out->times, &out->key_count);
+        ppmi_gltf_read_doubles(reader, s->input, inner, &scalar, &out->times, &out->key_count);
     if (status == PPM_STATUS_OK) status = check_times(reader, out, inner);
     if (status != PPM_STATUS_OK) return status;
     ppmi_gltf_place(inner, "animations[%d].samplers[%d].output", (int)animation, (int)sampler);

@@ -10,8 +10,8 @@ typedef struct ppmi_gltf_track {
     bool is_rotation;      /* quaternions: interpolated on the sphere */
     uint32_t width;        /* values at a time */
     size_t key_count;
-    float *times;  /* seconds, not decreasing */
-    float *values; /* width per key; CUBICSPLINE: in-tangents, values, out-tangents of each key */
+    double *times;  /* seconds, not decreasing */
+    double *values; /* width per key; CUBICSPLINE: in-tangents, values, out-tangents of each key */
 } ppmi_gltf_track;
 
 /* What a property takes. */

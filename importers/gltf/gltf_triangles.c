@@ -32,16 +32,11 @@ static void corners(int32_t mode, size_t i, size_t out[3])
     }
 }
 
-ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,
-                               size_t count, uint32_t **out_indices, size_t *out_triangles)
+/* Adds the triangles of a run of indices without restarts; returns how many there are then. */
+static size_t add_run(int32_t mode, const uint32_t *indices, size_t count, uint32_t *out,
+                      size_t kept)
 {
     const size_t triangles = triangle_count(mode, count);
-    size_t kept = 0;
-    *out_indices = NULL;
-    *out_triangles = 0;
-    if (triangles == 0) return PPM_STATUS_OK;
-    uint32_t *out = ppmi_alloc(context, triangles, 3 * sizeof *out);
-    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
     for (size_t i = 0; i < triangles; ++i) {
         size_t c[3];
         corners(mode, i, c);
@@ -50,6 +45,23 @@ ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_
         const bool is_empty = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
         if (is_empty && mode != PPMI_GLTF_TRIANGLES) continue;
         memcpy(out + 3 * kept++, t, sizeof t);
+    }
+    return kept;
+}
+
+ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,
+                               size_t count, uint32_t **out_indices, size_t *out_triangles)
+{
+    const size_t most = triangle_count(mode, count); /* restarts make it less */
+    size_t kept = 0, end;
+    *out_indices = NULL;
+    *out_triangles = 0;
+    if (most == 0) return PPM_STATUS_OK;
+    uint32_t *out = ppmi_alloc(context, most, 3 * sizeof *out);
+    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
+    for (size_t begin = 0; begin < count; begin = end + 1) {
+        end = ppmi_gltf_run_end(indices, count, begin);
+        kept = add_run(mode, indices + begin, end - begin, out, kept);
     }
     *out_indices = out;
     *out_triangles = kept;

@@ -504,11 +504,215 @@ static void an_incomplete_triangle_is_left_out_with_a_warning(void **state)
     assert_gltf_logged(f, 'W', "incomplete triangle");
 }
 
+/* ---- half and double floats ------------------------------------------------------------------ */
+
+/* The numbers of IEEE 754 binary16 by hand: 1, -2, the largest, the least, 1/3 rounded, 2^-14. */
+static void halves_are_read_exactly(void **state)
+{
+    gltf_fixture *f = *state;
+    static const uint16_t halves[] = {0x3c00, 0xc000, 0x7bff, 0x0001, 0x3555,
+                                      0x0400, 0x8000, 0x03ff, 0xbc00, 0x4248};
+    static const float expected[] = {1.0f,     -2.0f, 65504.0f,   0x1p-24f, 0.333251953125f,
+                                     0x1p-14f, -0.0f, 0x3ffp-24f, -1.0f};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION,
+                              "{'bufferView':0,'componentType':5131,'count':3,'type':'VEC3'}",
+                              "{'buffer':0,'byteLength':18}", halves, sizeof halves),
+        PPM_STATUS_OK);
+    assert_memory_equal(first(f)->positions, expected, sizeof expected);
+}
+
+static void halves_may_be_sparse(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        uint16_t base[9];
+        uint8_t index, pad;
+        uint16_t value[3];
+    } data = {{0, 0, 0, 0x3c00, 0, 0, 0, 0x3c00, 0}, 2, 0, {0x4000, 0x4200, 0x4400}};
+    assert_gltf_status(
+        f,
+        gltf_import_primitive(f, POSITION,
+                              "{'bufferView':0,'componentType':5131,'count':3,'type':'VEC3',"
+                              "'sparse':{'count':1,'indices':{'bufferView':1,'componentType':5121},"
+                              "'values':{'bufferView':2}}}",
+                              "{'buffer':0,'byteLength':18},"
+                              "{'buffer':0,'byteOffset':18,'byteLength':1},"
+                              "{'buffer':0,'byteOffset':20,'byteLength':6}",
+                              &data, sizeof data),
+        PPM_STATUS_OK);
+    assert_floats(first(f)->positions, (const float[]){0, 0, 0, 1, 0, 0, 2, 3, 4}, 9);
+}
+
+static void types_between_are_none(void **state)
+{
+    gltf_fixture *f = *state;
+    static const float zeros[9];
+    static const int types[] = {5124, 5127, 5128, 5129, 5132};
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; ++i) {
+        char accessor[120];
+        snprintf(accessor, sizeof accessor,
+                 "{'bufferView':0,'componentType':%d,'count':3,'type':'VEC3'}", types[i]);
+        assert_gltf_status(f,
+                           gltf_import_primitive(f, POSITION, accessor,
+                                                 "{'buffer':0,'byteLength':36}", zeros,
+                                                 sizeof zeros),
+                           PPM_STATUS_INPUT_INVALID);
+        assert_gltf_logged(f, 'E', "accessors[0].componentType: out of range");
+        gltf_reset(f);
+    }
+}
+
+/* Where vertex v is in the file's coordinates: in single precision these are half a metre apart. */
+static void double_place(const gltf_fixture *f, uint32_t v, double out[3])
+{
+    const ppmi_vec3 at = vec3_load(f->scene->meshes[0].primitives[0].positions + 3 * (size_t)v);
+    const ppmi_vec3 p = vec3_add(f->scene->instances[0].to_world.origin, at); /* not turned */
+    double origin[3];
+    ppm_scene_get_origin(f->scene, origin);
+    out[0] = origin[0] + (double)p.x;
+    out[1] = origin[1] + (double)p.y;
+    out[2] = origin[2] + (double)p.z;
+}
+
+/* A triangle on the earth's surface in geocentric coordinates, in the vertices or in the node. */
+static void doubles_keep_millimetres_at_the_radius_of_the_earth(void **state)
+{
+    gltf_fixture *f = *state;
+    static const double places[3][3] = {{4202123.0625, 171456.03125, 4780333.765625},
+                                        {4202123.5625, 171456.03125, 4780333.765625},
+                                        {4202123.0625, 171457.28125, 4780334.015625}};
+    static const char *const nodes[] = {
+        "'nodes':[{'mesh':0}]", /* moved to the point 0 */
+        "'nodes':[{'mesh':0,'translation':[-4202123,-171456,-4780333]}]"};
+    for (int way = 0; way < 2; ++way) {
+        assert_gltf_status(
+            f,
+            gltf_importf(
+                f,
+                "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_accessor_float64'],"
+                "'extensionsRequired':['KHR_accessor_float64'],%s,"
+                "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
+                "'accessors':[{'bufferView':0,'componentType':5130,'count':3,'type':'VEC3'}],"
+                "'bufferViews':[{'buffer':0,'byteLength':72}],"
+                "'buffers':[{'byteLength':72,'uri':'%s'}]}",
+                nodes[way], gltf_data_uri(places, sizeof places)),
+            PPM_STATUS_OK);
+        const double shift[3] = {4202123, 171456, 4780333};
+        for (uint32_t v = 0; v < 3; ++v) {
+            double at[3];
+            double_place(f, v, at);
+            for (int i = 0; i < 3; ++i) {
+                const double expected = places[v][i] - (way == 1 ? shift[i] : 0.0);
+                if (!(fabs(at[i] - expected) < 1e-4)) {
+                    fail_msg("way %d, vertex %u: %.6f, expected %.6f", way, v, at[i], expected);
+                }
+            }
+        }
+        gltf_reset(f);
+    }
+}
+
+/* ---- restarts -------------------------------------------------------------------------------- */
+
+/* Seven vertices on a line bent upwards; the indices are of a size in bytes. */
+static ppm_status import_joined(gltf_fixture *f, int mode, size_t size, const uint32_t *indices,
+                                size_t count, const char *extension)
+{
+    static const int types[] = {[1] = 5121, [2] = 5123, [4] = 5125};
+    unsigned char data[7 * 12 + 64] = {0};
+    for (int v = 0; v < 7; ++v) {
+        const float at[3] = {(float)v, (float)(v * v), 0.0f};
+        memcpy(data + 12 * v, at, sizeof at);
+    }
+    for (size_t i = 0; i < count; ++i)
+        memcpy(data + 84 + size * i, &indices[i], size);
+    return gltf_importf(
+        f,
+        "{" GLTF_HEAD "'nodes':[{'mesh':0}],%s"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'mode':%d}]}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':7,'type':'VEC3'},"
+        "{'bufferView':1,'componentType':%d,'count':%zu,'type':'SCALAR'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':84},{'buffer':0,'byteOffset':84,"
+        "'byteLength':%zu}],'buffers':[{'byteLength':%zu,'uri':'%s'}]}",
+        extension, mode, types[size], count, count * size, sizeof data,
+        gltf_data_uri(data, sizeof data));
+}
+
+#define NAMED                                                                                      \
+    "'extensionsUsed':['KHR_mesh_primitive_restart'],"                                             \
+    "'extensionsRequired':['KHR_mesh_primitive_restart'],"
+
+/* x of each corner in turn: vertices keep their order. */
+static void assert_corners(const gltf_fixture *f, const float *expected, size_t count)
+{
+    const ppmi_primitive *p = first(f);
+    for (size_t i = 0; i < count; ++i) {
+        const float x = p->positions[3 * p->indices[i]];
+        if (x != expected[i])
+            fail_msg("corner %zu: %g, expected %g", i, (double)x, (double)expected[i]);
+    }
+}
+
+static void strips_fans_and_loops_start_anew(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        int mode;
+        size_t elements, corners;
+        float expected[18];
+    } cases[] = {
+        /* 0 1 2 3 R 4 5 R R 4 5 6 */
+        {5, 3, 9, {0, 1, 2, 1, 3, 2, 4, 5, 6}},
+        {6, 3, 9, {1, 2, 0, 2, 3, 0, 5, 6, 4}},
+        {3, 6, 12, {0, 1, 1, 2, 2, 3, 4, 5, 4, 5, 5, 6}},
+        {2, 9, 18, {0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 4, 4, 5, 5, 6, 6, 4}},
+    };
+    for (size_t size = 1; size <= 4; size *= 2) {
+        const uint32_t r = UINT32_MAX >> (32 - 8 * size);
+        const uint32_t indices[] = {0, 1, 2, 3, r, 4, 5, r, r, 4, 5, 6};
+        for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+            assert_gltf_status(f, import_joined(f, cases[i].mode, size, indices, 12, NAMED),
+                               PPM_STATUS_OK);
+            const ppmi_primitive *p = first(f);
+            assert_int_equal(cases[i].mode >= 5 ? p->triangle_count : p->element_count,
+                             cases[i].elements);
+            assert_corners(f, cases[i].expected, cases[i].corners);
+            assert_false(gltf_logged(f, 'W', "restart"));
+            gltf_reset(f);
+        }
+    }
+}
+
+static void restarts_that_are_not_announced_are_told(void **state)
+{
+    gltf_fixture *f = *state;
+    static const uint32_t indices[] = {0, 1, 2, 255, 3, 4, 5};
+    assert_gltf_status(f, import_joined(f, 5, 1, indices, 7, ""), PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "meshes[0].primitives[0].indices: 1 indices are 255");
+    assert_corners(f, (const float[]){0, 1, 2, 3, 4, 5}, 6);
+    gltf_reset(f);
+    f->options.strict = 1;
+    assert_gltf_status(f, import_joined(f, 5, 1, indices, 7, ""), PPM_STATUS_INPUT_UNSUPPORTED);
+    gltf_reset(f);
+    f->options.strict = 0;
+    /* lists have nothing to start anew */
+    assert_gltf_status(f, import_joined(f, 4, 1, indices, 6, NAMED), PPM_STATUS_INPUT_INVALID);
+    assert_gltf_logged(f, 'E', "index 3 is 255");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(halves_are_read_exactly),
+        TEST(halves_may_be_sparse),
+        TEST(types_between_are_none),
+        TEST(doubles_keep_millimetres_at_the_radius_of_the_earth),
+        TEST(strips_fans_and_loops_start_anew),
+        TEST(restarts_that_are_not_announced_are_told),
         TEST(an_unused_attribute_of_a_wrong_type_is_left_out),
         TEST(positions_of_every_component_type_are_read),
         TEST(the_lowest_signed_integer_is_minus_one),

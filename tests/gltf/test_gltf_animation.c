@@ -445,11 +445,49 @@ static void half_a_frame_before_its_key_a_step_has_not_come(void **state)
     ppmi_gltf_asset_close(asset);
 }
 
+/* KHR_accessor_float64: in single precision the keys are at most half a metre apart here. */
+static void keys_in_doubles_are_interpolated_in_doubles(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        double times[2], places[2][3];
+        float triangle[9];
+    } data = {{0.0, 1.0},
+              {{4202123.0625, 171456.0, 4780333.5}, {4202123.3125, 171456.25, 4780333.5}},
+              {0, 0, 0, 1, 0, 0, 0, 1, 0}};
+    ppmi_gltf_asset *asset = NULL;
+    char json[4096];
+    snprintf(json, sizeof json,
+             "{" GLTF_HEAD "'extensionsRequired':['KHR_accessor_float64'],"
+             "'nodes':[{'mesh':0,'translation':[4202123,171456,4780333]}],"
+             "'meshes':[{'primitives':[{'attributes':{'POSITION':2}}]}],"
+             "'animations':[{'samplers':[{'input':0,'output':1}],'channels':[{'sampler':0,"
+             "'target':{'node':0,'path':'translation'}}]}],"
+             "'accessors':[{'bufferView':0,'componentType':5130,'count':2,'type':'SCALAR'},"
+             "{'bufferView':1,'componentType':5130,'count':2,'type':'VEC3'},"
+             "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC3'}],"
+             "'bufferViews':[{'buffer':0,'byteLength':16},"
+             "{'buffer':0,'byteOffset':16,'byteLength':48},"
+             "{'buffer':0,'byteOffset':64,'byteLength':36}],"
+             "'buffers':[{'byteLength':%zu,'uri':'%s'}]}",
+             sizeof data, gltf_data_uri(&data, sizeof data));
+    f->options.pose = gltf_at(0.25);
+    assert_gltf_status(f, gltf_open_text(f, json, &asset), PPM_STATUS_OK);
+    double origin[3];
+    ppm_scene_get_origin(f->scene, origin);
+    const ppmi_vec3 at = f->scene->instances[0].to_world.origin;
+    CLOSE(origin[0] - 4202123.0 + (double)at.x, 0.125);
+    CLOSE(origin[1] - 171456.0 + (double)at.y, 0.0625);
+    CLOSE(origin[2] - 4780333.0 + (double)at.z, 0.5);
+    ppmi_gltf_asset_close(asset);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(keys_in_doubles_are_interpolated_in_doubles),
         TEST(broken_keys_are_refused),
         TEST(broken_references_are_refused),
         TEST(an_unknown_animation_is_refused_with_the_nearest_name),

@@ -208,6 +208,47 @@ static void invalid_lights_are_left_out_with_a_warning(void **state)
     }
 }
 
+/* The proposal's lens of 35 mm at 2.8 on 36 x 24 mm, and the same lens in front of a sensor of half
+ * the size whose picture is the same: both are 12.5 mm wide. */
+static void a_physical_camera_has_a_lens(void **state)
+{
+    gltf_fixture *f = *state;
+    static const struct {
+        const char *lens;
+        double diameter_m; /* 0: a pinhole */
+        float focus_m;
+    } cases[] = {
+        {"'focalLength':0.035,'sensorSize':[0.036,0.024],'fStop':2.8,'focusDistance':5", 0.0125, 5},
+        {"'focalLength':0.0175,'sensorSize':[0.018,0.012],'fStop':2.8,'focusDistance':2", 0.00625,
+         2},
+        {"'focalLength':0.035,'sensorSize':[0.036,0.024],'fStop':1", 0.035, 0},
+        {"'focalLength':0.035,'sensorSize':[0.036,0.024],'focusDistance':5", 0, 0},
+        {"'focalLength':0.035,'sensorSize':[0.036,0.024],'fStop':-1", 0, 0},
+        {"'focalLength':0,'sensorSize':[0.036,0.024],'fStop':2", 0, 0},
+        {"'focalLength':0.035,'fStop':2", 0, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char camera[400];
+        snprintf(
+            camera, sizeof camera,
+            "{'type':'perspective','perspective':{'yfov':0.66059,'aspectRatio':1.5,'znear':0.01},"
+            "'extensions':{'EXT_camera_physical':{%s}}}",
+            cases[i].lens);
+        assert_gltf_status(f, import_cameras(f, "{'camera':0}", camera), PPM_STATUS_OK);
+        const ppmi_camera *c = &f->scene->cameras[0];
+        const double focal_36_m = 0.018 / (1.5 * tan(0.5 * 0.66059));
+        if (cases[i].diameter_m == 0.0) {
+            assert_float_equal(c->f_number, 0.0f, 0.0f);
+        } else {
+            assert_float_equal((float)(focal_36_m / (double)c->f_number),
+                               (float)cases[i].diameter_m, 1e-6f);
+            assert_float_equal(c->focus_distance_m, cases[i].focus_m, 0.0f);
+        }
+        if (i > 3) assert_gltf_logged(f, 'W', "nodes[0].camera: EXT_camera_physical left out");
+        gltf_reset(f);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 static void cameras_clip_by_znear_and_zfar_unless_they_are_told_not_to(void **state)
@@ -238,6 +279,7 @@ static void cameras_clip_by_znear_and_zfar_unless_they_are_told_not_to(void **st
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(a_physical_camera_has_a_lens),
         TEST(perspective_cameras_are_read),
         TEST(a_shift_comes_from_the_extras_of_a_camera),
         TEST(orthographic_cameras_show_twice_their_magnification),
