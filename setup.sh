@@ -12,7 +12,8 @@ cd "$(dirname "$0")"
 
 build_packages="build-essential cmake ninja-build pkg-config
     libembree-dev libtinygltf-dev libopenimageio-dev libopencolorio-dev libjansson-dev
-    libdraco-dev libmeshoptimizer-dev libzstd-dev zlib1g-dev libtinyobjloader-dev libcmocka-dev
+    libdraco-dev libmeshoptimizer-dev libzstd-dev zlib1g-dev libastcenc-dev libtinyobjloader-dev
+    libcmocka-dev
     openimageio-tools"
 check_packages="clang-format python3 gnuplot-nox"
 

@@ -38,6 +38,7 @@ static const struct {
      "the primitives that a group joins are shown as they are: the same picture"},
     {"EXT_meshopt_compression", PPM_FEATURE_HONOURED, ""},
     {"EXT_structural_metadata", PPM_FEATURE_HONOURED, NO_EFFECT},
+    {"EXT_texture_astc", PPM_FEATURE_HONOURED, ""},
     {"EXT_texture_avif", PPM_FEATURE_HONOURED, ""},
     {"EXT_texture_webp", PPM_FEATURE_HONOURED, ""},
     {"FB_geometry_metadata", PPM_FEATURE_HONOURED, NO_EFFECT},
@@ -140,22 +141,25 @@ static void note(ppmi_gltf_reader *reader, const char *const *names, size_t coun
     }
 }
 
-/* Whether all textures have an image that can be read: else, where KHR_texture_basisu is required,
- * the file would be shown without them. */
-static ppm_status check_ktx2(ppmi_gltf_reader *reader, size_t required)
+/* Whether all textures have an image that can be read: else, where an extension of KTX2 files is
+ * required, the file would be shown without them. */
+static ppm_status check_ktx2(ppmi_gltf_reader *reader, size_t required, const char *name)
 {
+    const bool is_astc = strcmp(name, "EXT_texture_astc") == 0;
     const ppmi_gltf_document *document = reader->document;
     char encoding[64];
     for (size_t i = 0; i < document->texture_count; ++i) {
         const ppmi_gltf_texture *texture = &document->textures[i];
         const bool has_other = texture->source >= 0 || texture->webp_source >= 0 ||
-                               texture->avif_source >= 0 || texture->dds_source >= 0;
-        if (has_other || texture->basisu_source < 0) continue;
-        if (!ppmi_gltf_image_is_unread(reader, texture->basisu_source, encoding)) continue;
+                               texture->avif_source >= 0 || texture->dds_source >= 0 ||
+                               (texture->astc_source >= 0 && texture->basisu_source >= 0);
+        const int32_t source = is_astc ? texture->astc_source : texture->basisu_source;
+        if (has_other || source < 0) continue;
+        if (!ppmi_gltf_image_is_unread(reader, source, encoding)) continue;
         return ppmi_fail(reader->context, PPM_STATUS_INPUT_UNSUPPORTED,
-                         "%s: extensionsRequired[%zu]: KHR_texture_basisu: images[%d] is %s, which "
+                         "%s: extensionsRequired[%zu]: %s: images[%d] is %s, which "
                          "is not supported; write it as PNG, JPEG or WebP",
-                         reader->path, required, (int)texture->basisu_source, encoding);
+                         reader->path, required, name, (int)source, encoding);
     }
     return PPM_STATUS_OK;
 }
@@ -167,8 +171,8 @@ ppm_status ppmi_gltf_check_extensions(ppmi_gltf_reader *reader)
     for (size_t i = 0; i < document->required_count; ++i) {
         const char *name = document->extensions_required[i];
         const size_t row = find_row(name);
-        if (strcmp(name, "KHR_texture_basisu") == 0) {
-            const ppm_status status = check_ktx2(reader, i);
+        if (strcmp(name, "KHR_texture_basisu") == 0 || strcmp(name, "EXT_texture_astc") == 0) {
+            const ppm_status status = check_ktx2(reader, i, name);
             if (status != PPM_STATUS_OK) return status;
         }
         if (row < ROW_COUNT && rows[row].verdict != PPM_FEATURE_IGNORED) continue;

@@ -267,17 +267,18 @@ static void apply_transform(const ppmi_gltf_texture_info *info, ppm_texture *out
 }
 
 /* The sources of a texture: those of extensions, which their writer thought the better ones, before
- * the plain one, which is the fallback. A KTX2 image comes last: if there is another one, it shows
+ * the plain one, which is the fallback. KTX2 images come last: if there is another one, it shows
  * the same and can be read. */
 static ppm_status use_sources(ppmi_gltf_reader *reader, const ppmi_gltf_texture *texture,
                               int32_t role, const char *place, ppm_image_id *out_id)
 {
     const int32_t sources[] = {texture->webp_source, texture->avif_source, texture->dds_source,
-                               texture->source, texture->basisu_source};
+                               texture->source,      texture->astc_source, texture->basisu_source};
+    const size_t count = sizeof sources / sizeof sources[0];
     ppm_status status = PPM_STATUS_OK;
     bool is_any = false;
     *out_id = 0;
-    for (size_t i = 0; i < 5 && *out_id == 0 && status == PPM_STATUS_OK; ++i) {
+    for (size_t i = 0; i < count && *out_id == 0 && status == PPM_STATUS_OK; ++i) {
         if (sources[i] < 0) continue;
         is_any = true;
         status = ppmi_gltf_use_image(reader, sources[i], role, place, out_id);

@@ -354,7 +354,8 @@ static const gltf_field material[] = {
 static const gltf_field texture_source[] = {INDEX("source", GLTF_REQUIRED), END};
 static const gltf_field texture_extensions[] = {
     OBJECT("EXT_texture_webp", texture_source), OBJECT("EXT_texture_avif", texture_source),
-    OBJECT("MSFT_texture_dds", texture_source), OBJECT("KHR_texture_basisu", texture_source), END};
+    OBJECT("MSFT_texture_dds", texture_source), OBJECT("KHR_texture_basisu", texture_source),
+    OBJECT("EXT_texture_astc", texture_source), END};
 static const gltf_field texture[] = {INDEX("sampler", 0), INDEX("source", 0),
                                      OBJECT("extensions", texture_extensions), END};
 static const gltf_field image[] = {STRING("name"), FIELD("uri", GLTF_STRING, .flags = GLTF_VITAL),

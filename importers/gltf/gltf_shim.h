@@ -312,7 +312,7 @@ typedef struct ppmi_gltf_material {
 } ppmi_gltf_material;
 
 typedef struct ppmi_gltf_texture {
-    int32_t source, webp_source, basisu_source, avif_source, dds_source;
+    int32_t source, webp_source, basisu_source, avif_source, dds_source, astc_source;
     int32_t sampler; /* all -1: not given */
 } ppmi_gltf_texture;
 

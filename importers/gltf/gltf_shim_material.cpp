@@ -167,6 +167,7 @@ ppmi_gltf_texture copy_texture(const tinygltf::Texture &from)
             index_or(extension(from.extensions, "KHR_texture_basisu"), "source", -1),
             index_or(extension(from.extensions, "EXT_texture_avif"), "source", -1),
             index_or(extension(from.extensions, "MSFT_texture_dds"), "source", -1),
+            index_or(extension(from.extensions, "EXT_texture_astc"), "source", -1),
             from.sampler};
 }
 } // namespace ppmi_gltf

@@ -142,10 +142,11 @@ static ppm_status check_shape(const header *h, ppmi_ktx2 *out)
 /* Bytes of one picture; check_shape keeps it below 2^32. */
 static size_t picture_size(const ppmi_ktx2 *file)
 {
-    const bool is_blocks = file->format.kind == PPMI_KTX2_BLOCKS;
-    const size_t edge = is_blocks ? 4 : 1;
-    const size_t across = ((size_t)file->width + edge - 1) / edge;
-    const size_t down = ((size_t)file->height + edge - 1) / edge;
+    const size_t edge = file->format.kind == PPMI_KTX2_BLOCKS ? 4 : 1;
+    const size_t x = file->format.block[0] ? file->format.block[0] : edge;
+    const size_t y = file->format.block[1] ? file->format.block[1] : edge;
+    const size_t across = ((size_t)file->width + x - 1) / x;
+    const size_t down = ((size_t)file->height + y - 1) / y;
     return across * down * file->format.bytes;
 }
 

@@ -19,7 +19,8 @@ typedef enum ppmi_ktx2_kind {
     PPMI_KTX2_F32,
     PPMI_KTX2_B10G11R11,
     PPMI_KTX2_E5B9G9R9,
-    PPMI_KTX2_BLOCKS /* 4 x 4 texels together */
+    PPMI_KTX2_BLOCKS, /* 4 x 4 texels together */
+    PPMI_KTX2_ASTC    /* the same, of other sizes */
 } ppmi_ktx2_kind;
 
 /* A row of the table of formats. */
@@ -30,7 +31,8 @@ typedef struct ppmi_ktx2_format {
     uint32_t bytes; /* of a texel, or of a block */
     bool is_srgb;
     bool is_bgr;
-    uint32_t dds; /* of blocks: the four letters of a DDS file, or DXGI's number */
+    uint32_t dds;     /* of blocks: the four letters of a DDS file, or DXGI's number */
+    uint8_t block[2]; /* texels of a block, across and down; 0: one or, of BLOCKS, four */
 } ppmi_ktx2_format;
 
 /* An open file. */

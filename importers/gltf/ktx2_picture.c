@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gltf/ktx2.h"
+#include "gltf/ktx2_astc.h"
 
 /* ---- values ---------------------------------------------------------------------------------- */
 
@@ -67,6 +68,7 @@ static void read_texel(const ppmi_ktx2_format *format, const unsigned char *p, f
             out[c] = ldexpf((float)(word >> (9 * i) & 511), (int)(word >> 27) - 15 - 9);
             break;
         case PPMI_KTX2_BLOCKS:
+        case PPMI_KTX2_ASTC:
             break;
         }
         if (format->is_srgb && c < 3) out[c] = srgb_to_linear(out[c]);
@@ -214,6 +216,31 @@ static ppm_status wrap_blocks(ppm_context *context, ppmi_ktx2 *file, const unsig
     return PPM_STATUS_OK;
 }
 
+/* ASTC: decoded, then read as texels of four bytes. */
+static ppm_status decode_astc(ppm_context *context, ppmi_ktx2 *file, const unsigned char *picture,
+                              ppm_image_desc *desc, void **out_owned)
+{
+    const ppmi_ktx2_format blocks = file->format;
+    uint8_t *decoded = ppmi_alloc(context, (size_t)file->width * file->height, 4);
+    ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
+    if (decoded) {
+        status = ppmi_ktx2_decode_astc(picture, file->picture_bytes, blocks.block, blocks.is_srgb,
+                                       file->width, file->height, decoded);
+    }
+    if (status == PPM_STATUS_OK) {
+        file->format = (ppmi_ktx2_format){
+            .kind = PPMI_KTX2_U8, .channels = 4, .bytes = 4, .is_srgb = blocks.is_srgb};
+        status = read_texels(context, file, decoded, desc, out_owned);
+        file->format = blocks;
+    } else {
+        snprintf(file->reason, sizeof file->reason, "%s",
+                 status == PPM_STATUS_OUT_OF_MEMORY ? "out of memory"
+                                                    : "its ASTC blocks cannot be decoded");
+    }
+    ppmi_free(context, decoded);
+    return status;
+}
+
 ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t layer, uint32_t face,
                              ppm_image_desc *desc, void **out_owned)
 {
@@ -225,7 +252,12 @@ ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t lay
     const unsigned char *picture = file->level + index * file->picture_bytes;
     desc->bytes = desc->path = NULL;
     desc->byte_count = 0;
-    return file->format.kind == PPMI_KTX2_BLOCKS
-               ? wrap_blocks(context, file, picture, desc, out_owned)
-               : read_texels(context, file, picture, desc, out_owned);
+    switch (file->format.kind) {
+    case PPMI_KTX2_BLOCKS:
+        return wrap_blocks(context, file, picture, desc, out_owned);
+    case PPMI_KTX2_ASTC:
+        return decode_astc(context, file, picture, desc, out_owned);
+    default:
+        return read_texels(context, file, picture, desc, out_owned);
+    }
 }

@@ -117,10 +117,10 @@ static void basis_universal_is_recognised_by_name(void **state)
     count = ktx2_make(&spec, made);
     assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_UNSUPPORTED);
     assert_non_null(strstr(reason, "ETC1S"));
-    spec = (ktx2_spec){.format = 157, .width = 4, .height = 4, .data = texels, .count = 16};
+    spec = (ktx2_spec){.format = 1000066000, .width = 4, .height = 4, .data = texels, .count = 16};
     count = ktx2_make(&spec, made);
     assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_UNSUPPORTED);
-    assert_non_null(strstr(reason, "ASTC"));
+    assert_non_null(strstr(reason, "ASTC HDR"));
 }
 
 /* ---- formats --------------------------------------------------------------------------------- */
@@ -335,6 +335,107 @@ static const ppmi_image *color_image(const gltf_fixture *f)
     return &f->scene->images[id - 1];
 }
 
+/* ---- ASTC ------------------------------------------------------------------------------------ */
+
+#if PPM_HAS_ASTC
+/* A void-extent block: one colour, in 16 bits each, and no limits of where it holds (Khronos Data
+ * Format specification, "Void-Extent Blocks"). */
+static void put_even_block(unsigned char *at, uint8_t red, uint8_t green, uint8_t blue,
+                           uint8_t alpha)
+{
+    const uint8_t values[4] = {red, green, blue, alpha};
+    memset(at, 0xff, 8);
+    at[0] = 0xfc;
+    at[1] = 0xfd;
+    for (int i = 0; i < 4; ++i)
+        ktx2_put(at + 8 + 2 * (size_t)i, 257 * (uint64_t)values[i], 2);
+}
+
+/* Three blocks across and two down, of each size, with cut ones at the edges. */
+static void astc_blocks_of_every_size_are_where_they_belong(void **state)
+{
+    gltf_fixture *f = *state;
+    static const uint32_t sizes[14][2] = {{4, 4},  {5, 4},   {5, 5},   {6, 5},  {6, 6},
+                                          {8, 5},  {8, 6},   {8, 8},   {10, 5}, {10, 6},
+                                          {10, 8}, {10, 10}, {12, 10}, {12, 12}};
+    unsigned char blocks[6 * 16];
+    for (uint8_t i = 0; i < 6; ++i)
+        put_even_block(blocks + 16 * (size_t)i, (uint8_t)(40 * i), (uint8_t)(200 - i), 7,
+                       (uint8_t)(255 - i));
+    for (uint32_t k = 0; k < 28; ++k) {
+        const uint32_t x = sizes[k / 2][0], y = sizes[k / 2][1];
+        const ktx2_spec spec = {.format = 157 + k,
+                                .width = 3 * x - 2,
+                                .height = 2 * y - 1,
+                                .data = blocks,
+                                .count = sizeof blocks};
+        ppm_image_desc desc = {.size = sizeof desc,
+                               .role = k % 2 == 1 ? PPM_IMAGE_COLOR : PPM_IMAGE_DATA};
+        void *owned = NULL;
+        read_made(f, &spec, &desc, &owned);
+        assert_int_equal(desc.pixel_type, PPM_PIXELS_U8);
+        assert_int_equal(desc.channels, 4);
+        const uint8_t *texel = desc.pixels;
+        for (uint32_t i = 0; i < desc.width * desc.height; ++i, texel += 4) {
+            const uint32_t at = i / desc.width / y * 3 + i % desc.width / x;
+            assert_int_equal(texel[0], 40 * at);
+            assert_int_equal(texel[1], 200 - at);
+            assert_int_equal(texel[2], 7);
+            assert_int_equal(texel[3], 255 - at);
+        }
+        ppmi_free(f->context, owned);
+    }
+}
+
+/* Any bits: a picture, of the error colour where the format has none. */
+static void any_astc_bits_are_a_picture(void **state)
+{
+    gltf_fixture *f = *state;
+    char reason[PPMI_KTX2_REASON];
+    unsigned char blocks[16 * 9];
+    uint32_t seed = 1;
+    for (int round = 0; round < 200; ++round) {
+        for (size_t i = 0; i < sizeof blocks; ++i) {
+            seed = seed * 1664525 + 1013904223;
+            blocks[i] = (unsigned char)(seed >> 24);
+        }
+        const ktx2_spec spec = {.format = 157 + (uint32_t)round % 2,
+                                .width = 12,
+                                .height = 12,
+                                .data = blocks,
+                                .count = sizeof blocks};
+        assert_int_equal(open_copy(f, made, ktx2_make(&spec, made), reason), PPM_STATUS_OK);
+    }
+    const ktx2_spec lie = {.format = 157, .width = 13, .height = 12, .data = blocks, .count = 144};
+    assert_int_equal(open_copy(f, made, ktx2_make(&lie, made), reason), PPM_STATUS_INPUT_INVALID);
+}
+
+static void a_texture_in_astc_is_shown_after_the_plain_one(void **state)
+{
+    gltf_fixture *f = *state;
+    unsigned char blocks[16];
+    put_even_block(blocks, 10, 20, 30, 255);
+    const ktx2_spec spec = {.format = 158, .width = 4, .height = 4, .data = blocks, .count = 16};
+    gltf_write(f, "sub/a.ktx2", made, ktx2_make(&spec, made));
+    assert_gltf_status(f,
+                       import_texture(f, "'extensionsRequired':['EXT_texture_astc'],",
+                                      "{'extensions':{'EXT_texture_astc':{'source':0}}}",
+                                      "{'uri':'a.ktx2'}"),
+                       PPM_STATUS_OK);
+    const ppmi_image *shown = color_image(f);
+    assert_int_equal(shown->width, 4);
+    assert_true(shown->is_srgb);
+    assert_int_equal(shown->u8[1], 20);
+    assert_gltf_status(f,
+                       import_texture(f, "",
+                                      "{'source':1,'extensions':{'EXT_texture_astc':{'source':0}}}",
+                                      "{'uri':'a.ktx2'},{'uri':'absent.png'}"),
+                       PPM_STATUS_OK);
+    assert_gltf_logged(f, 'W', "absent.png");
+    assert_int_equal(color_image(f)->u8[1], 20);
+}
+#endif
+
 static void a_required_texture_in_basis_universal_refuses_the_file(void **state)
 {
     gltf_fixture *f = *state;
@@ -424,6 +525,11 @@ static void blocks_are_decoded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+#if PPM_HAS_ASTC
+        TEST(astc_blocks_of_every_size_are_where_they_belong),
+        TEST(any_astc_bits_are_a_picture),
+        TEST(a_texture_in_astc_is_shown_after_the_plain_one),
+#endif
         TEST(a_file_that_ends_early_is_refused),
         TEST(sizes_that_lie_are_refused_or_harmless),
         TEST(shapes_that_are_no_picture_are_refused),
