@@ -21,12 +21,14 @@ typedef struct binder {
 /* ---- bindings -------------------------------------------------------------------------------- */
 
 /* Where the values are in the table, or the free place where they belong (linear probing). */
-static size_t *place_of(const ppmi_gltf_animations *all, const double *values)
+static size_t *place_of(ppmi_gltf_animations *all, const double *values)
 {
     const uint64_t hash = (uint64_t)(uintptr_t)values * UINT64_C(0x9e3779b97f4a7c15);
     size_t at = (size_t)(hash >> 32) & (all->place_count - 1);
+    all->look_ups++;
     while (all->places[at] != 0 && all->bindings[all->places[at] - 1].property.values != values) {
         at = (at + 1) & (all->place_count - 1);
+        all->look_ups++;
     }
     return &all->places[at];
 }
@@ -141,12 +143,13 @@ static bool find_users(ppmi_gltf_reader *reader)
 static ppm_status bind_mesh_weights(binder *b, int32_t mesh, int32_t sampler)
 {
     const ppmi_gltf_document *d = b->reader->document;
-    const ppmi_gltf_animations *all = b->reader->animations;
+    ppmi_gltf_animations *all = b->reader->animations;
     ppm_status status = PPM_STATUS_OK;
     if (!find_users(b->reader)) return ppmi_gltf_out_of_memory(b->reader, b->place);
     for (int32_t i = all->first_user[mesh]; i >= 0 && status == PPM_STATUS_OK;
          i = all->next_user[i]) {
         ppmi_gltf_property property;
+        all->look_ups++;
         if (d->nodes[i].weight_count > 0) continue;
         if (!ppmi_gltf_node_property(b->reader, i, "weights", &property)) continue;
         status = add_binding(b, &property, sampler);

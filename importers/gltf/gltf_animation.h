@@ -22,6 +22,7 @@ typedef struct ppmi_gltf_animations {
     /* while bindings are made: */
     size_t *places; /* of the values that are bound, hashed: index of a binding + 1; 0: free */
     size_t place_count;
+    size_t look_ups; /* of places and of users so far: what grows if finding is not linear */
     int32_t *first_user, *next_user; /* of a mesh, and of its mesh after a node: a node, or -1 */
 } ppmi_gltf_animations;
 

@@ -1,8 +1,10 @@
 /* importers/gltf/gltf_track.c, gltf_animation.c, gltf_pose.c: values against closed forms. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "gltf/gltf_animation.h"
 #include "gltf_motion.h"
 
 #define CLOSE(a, b) assert_float_equal((double)(a), (double)(b), 1e-5)
@@ -482,11 +484,96 @@ static void keys_in_doubles_are_interpolated_in_doubles(void **state)
     ppmi_gltf_asset_close(asset);
 }
 
+/* ---- many channels --------------------------------------------------------------------------- */
+
+/* A chain of text that grows. */
+typedef struct text {
+    char *at;
+    size_t length, room;
+} text;
+
+static void add(text *t, const char *format, ...)
+{
+    va_list arguments;
+    if (t->room - t->length < 256) {
+        t->room = 2 * t->room + 1024;
+        t->at = realloc(t->at, t->room);
+        assert_non_null(t->at);
+    }
+    va_start(arguments, format);
+    t->length += (size_t)vsnprintf(t->at + t->length, t->room - t->length, format, arguments);
+    va_end(arguments);
+}
+
+/* nodes nodes with a triangle each, of a mesh of their own, whose place, rotation and size move,
+ * and by pointer the weights of their meshes. */
+static void write_many(text *t, uint32_t nodes)
+{
+    static const char *const paths[] = {"translation", "rotation", "scale"};
+    static const float data[] = {0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1};
+    add(t, "{'asset':{'version':'2.0'},'extensionsUsed':['KHR_animation_pointer'],'nodes':[");
+    for (uint32_t i = 0; i < nodes; ++i)
+        add(t, "%s{'mesh':%u}", i ? "," : "", i);
+    add(t, "],'meshes':[");
+    for (uint32_t i = 0; i < nodes; ++i)
+        add(t,
+            "%s{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':0}]}],'weights':["
+            "0]}",
+            i ? "," : "");
+    add(t, "],'animations':[{'samplers':[{'input':1,'output':2},{'input':1,'output':3},"
+           "{'input':1,'output':1}],'channels':[");
+    for (uint32_t i = 0; i < nodes; ++i) {
+        for (int k = 0; k < 3; ++k)
+            add(t, "{'sampler':%d,'target':{'node':%u,'path':'%s'}},", k == 1, i, paths[k]);
+        add(t,
+            "{'sampler':2,'target':{'path':'pointer','extensions':{'KHR_animation_pointer':"
+            "{'pointer':'/meshes/%u/weights'}}}}%s",
+            i, i + 1 < nodes ? "," : "");
+    }
+    add(t,
+        "]}],'accessors':[{'componentType':5126,'count':1,'type':'VEC3'},"
+        "{'bufferView':0,'componentType':5126,'count':2,'type':'SCALAR'},"
+        "{'bufferView':0,'byteOffset':8,'componentType':5126,'count':2,'type':'VEC3'},"
+        "{'bufferView':0,'byteOffset':32,'componentType':5126,'count':2,'type':'VEC4'}],"
+        "'bufferViews':[{'buffer':0,'byteLength':72}],"
+        "'buffers':[{'byteLength':72,'uri':'%s'}]}",
+        gltf_data_uri(data, sizeof data));
+}
+
+/* What is looked at for each channel while channels find their properties; no clock, which would
+ * measure the machine. */
+static double look_ups_per_channel(gltf_fixture *f, uint32_t nodes)
+{
+    text t = {0};
+    ppmi_gltf_asset *asset = NULL;
+    write_many(&t, nodes);
+    f->options.pose = gltf_at(0.5);
+    assert_gltf_status(f, gltf_open_text(f, t.at, &asset), PPM_STATUS_OK);
+    const ppmi_gltf_animations *all = ppmi_gltf_asset_reader(asset)->animations;
+    assert_int_equal(all->count, 4 * nodes);
+    const double per_channel = (double)all->look_ups / (double)all->count;
+    ppmi_gltf_asset_close(asset);
+    gltf_reset(f);
+    free(t.at);
+    return per_channel;
+}
+
+/* A list that is gone through for each channel has half as many look-ups as there are channels. */
+static void finding_what_channels_change_is_linear_work(void **state)
+{
+    gltf_fixture *f = *state;
+    for (uint32_t nodes = 500; nodes <= 8000; nodes *= 4) {
+        const double per_channel = look_ups_per_channel(f, nodes);
+        if (!(per_channel < 10.0)) fail_msg("%u nodes: %g for each channel", nodes, per_channel);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, gltf_setup, gltf_teardown)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(finding_what_channels_change_is_linear_work),
         TEST(keys_in_doubles_are_interpolated_in_doubles),
         TEST(broken_keys_are_refused),
         TEST(broken_references_are_refused),
