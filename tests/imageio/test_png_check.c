@@ -102,6 +102,27 @@ static void a_file_that_lacks_only_its_end_is_read(void **state)
     }
 }
 
+/* A file that ends between two chunks of pixels is for the decoder to refuse, which leaks nothing.
+ */
+static void a_file_that_ends_between_chunks_of_pixels_is_refused(void **state)
+{
+    (void)state;
+    uint8_t file[IDAT_AT + 12 + 8];
+    memcpy(file, smallest, IDAT_AT);
+    memcpy(file + IDAT_AT, smallest + IDAT_AT, 16); /* length, type, the first 8 of 10 bytes */
+    file[IDAT_AT + 3] = 8;
+    put_checksum(file + IDAT_AT);
+    ppmi_pixels pixels = {0};
+    size_t cut_at;
+    assert_int_equal(ppmi_imageio_png_check(NULL, file, sizeof file, "test.png", &cut_at),
+                     PPM_STATUS_OK);
+    assert_int_equal(cut_at, sizeof file);
+    const ppm_status status =
+        ppmi_imageio_read_memory(NULL, file, sizeof file, "test.png", &pixels);
+    ppmi_imageio_pixels_free(NULL, &pixels);
+    assert_int_equal(status, PPM_STATUS_INPUT_INVALID);
+}
+
 static void every_flipped_bit_is_found(void **state)
 {
     (void)state;
@@ -150,6 +171,7 @@ int main(void)
         cmocka_unit_test(bytes_after_the_end_are_no_fault),
         cmocka_unit_test(a_file_without_all_of_its_pixels_is_refused),
         cmocka_unit_test(a_file_that_lacks_only_its_end_is_read),
+        cmocka_unit_test(a_file_that_ends_between_chunks_of_pixels_is_refused),
         cmocka_unit_test(every_flipped_bit_is_found),
         cmocka_unit_test(chunk_types_are_letters),
         cmocka_unit_test(pixels_must_be_there),
