@@ -22,13 +22,20 @@ typedef struct ppmi_gltf_geometry {
 /* In place of an index: a strip, fan or loop ends, and another one begins behind it. */
 #define PPMI_GLTF_RESTART UINT32_MAX
 
-/* Where the part of a list that begins at `at` ends: at a restart, or the end of the list. */
-static inline size_t ppmi_gltf_run_end(const uint32_t *indices, size_t count, size_t at)
-{
-    while (at < count && indices[at] != PPMI_GLTF_RESTART)
-        ++at;
-    return at;
-}
+/* How lists become elements. */
+typedef struct ppmi_gltf_runs {
+    int32_t mode;   /* PPMI_GLTF_POINTS .. */
+    size_t most;    /* elements that a list without restarts has: with them it has no more */
+    size_t corners; /* indices of an element, at most */
+    /* Adds the elements of a part without restarts behind kept ones; returns how many there are. */
+    size_t (*add)(int32_t mode, const uint32_t *indices, size_t count, uint32_t *out, size_t kept);
+} ppmi_gltf_runs;
+
+/* The elements of all parts between restarts, one after the other. *out_indices is the caller's;
+ * NULL for none. Returns OK or OUT_OF_MEMORY, unreported. */
+ppm_status ppmi_gltf_join_runs(ppm_context *context, const ppmi_gltf_runs *runs,
+                               const uint32_t *indices, size_t count, uint32_t **out_indices,
+                               size_t *out_elements);
 
 /* The triangle list of count indices in a mode (PPMI_GLTF_TRIANGLES, _STRIP, _FAN). *out_indices is
  * the caller's; NULL for no triangle. Returns OK or OUT_OF_MEMORY, unreported. */

@@ -37,20 +37,8 @@ static size_t add_run(int32_t mode, const uint32_t *indices, size_t count, uint3
 ppm_status ppmi_gltf_points_and_lines(ppm_context *context, int32_t mode, const uint32_t *indices,
                                       size_t count, uint32_t **out_indices, size_t *out_elements)
 {
-    const size_t most = element_count(mode, count); /* restarts make it less */
-    size_t kept = 0, end;
-    *out_indices = NULL;
-    *out_elements = 0;
-    if (most == 0) return PPM_STATUS_OK;
-    uint32_t *out = ppmi_alloc(context, most, 2 * sizeof *out);
-    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
-    for (size_t begin = 0; begin < count; begin = end + 1) {
-        end = ppmi_gltf_run_end(indices, count, begin);
-        kept = add_run(mode, indices + begin, end - begin, out, kept);
-    }
-    *out_indices = out;
-    *out_elements = kept;
-    return PPM_STATUS_OK;
+    const ppmi_gltf_runs runs = {mode, element_count(mode, count), 2, add_run};
+    return ppmi_gltf_join_runs(context, &runs, indices, count, out_indices, out_elements);
 }
 
 float ppmi_gltf_line_radius(const ppmi_gltf_geometry *primitives, size_t count)

@@ -49,21 +49,30 @@ static size_t add_run(int32_t mode, const uint32_t *indices, size_t count, uint3
     return kept;
 }
 
+ppm_status ppmi_gltf_join_runs(ppm_context *context, const ppmi_gltf_runs *runs,
+                               const uint32_t *indices, size_t count, uint32_t **out_indices,
+                               size_t *out_elements)
+{
+    size_t kept = 0, end;
+    *out_indices = NULL;
+    *out_elements = 0;
+    if (runs->most == 0) return PPM_STATUS_OK;
+    uint32_t *out = ppmi_alloc(context, runs->most, runs->corners * sizeof *out);
+    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
+    for (size_t begin = 0; begin < count; begin = end + 1) {
+        end = begin;
+        while (end < count && indices[end] != PPMI_GLTF_RESTART)
+            ++end;
+        kept = runs->add(runs->mode, indices + begin, end - begin, out, kept);
+    }
+    *out_indices = out;
+    *out_elements = kept;
+    return PPM_STATUS_OK;
+}
+
 ppm_status ppmi_gltf_triangles(ppm_context *context, int32_t mode, const uint32_t *indices,
                                size_t count, uint32_t **out_indices, size_t *out_triangles)
 {
-    const size_t most = triangle_count(mode, count); /* restarts make it less */
-    size_t kept = 0, end;
-    *out_indices = NULL;
-    *out_triangles = 0;
-    if (most == 0) return PPM_STATUS_OK;
-    uint32_t *out = ppmi_alloc(context, most, 3 * sizeof *out);
-    if (!out) return PPM_STATUS_OUT_OF_MEMORY;
-    for (size_t begin = 0; begin < count; begin = end + 1) {
-        end = ppmi_gltf_run_end(indices, count, begin);
-        kept = add_run(mode, indices + begin, end - begin, out, kept);
-    }
-    *out_indices = out;
-    *out_triangles = kept;
-    return PPM_STATUS_OK;
+    const ppmi_gltf_runs runs = {mode, triangle_count(mode, count), 3, add_run};
+    return ppmi_gltf_join_runs(context, &runs, indices, count, out_indices, out_triangles);
 }
