@@ -19,7 +19,7 @@ __attribute__((noinline)) static ppmi_vec3 look_up_normal(const ppm_scene *scene
                                                           const ppm_texture *texture, float scale)
 {
     ppmi_vec3 tangent, bitangent;
-    if (!ppmi_surface_tangents(surface, texture->uv_set, &tangent, &bitangent)) {
+    if (!ppmi_surface_tangents(surface, texture, &tangent, &bitangent)) {
         return surface->ns;
     }
     const ppmi_texel texel = lookup(scene, surface, texture);
@@ -52,17 +52,17 @@ static float metallic(const ppm_material_desc *desc, ppmi_texel texel)
 /* ---- layers ---------------------------------------------------------------------------------- */
 
 /* Strength and direction (KHR_materials_anisotropy): the texture's vector, turned, in the tangent
- * space of the texture, else of the normal map. */
+ * space of the texture, else along the tangent of the normal map's coordinates. */
 static void evaluate_anisotropy(const ppm_scene *scene, const ppmi_surface *surface,
                                 ppmi_layer_point *layers)
 {
     const ppm_material_desc *desc = &surface->material->desc;
     const ppm_texture *texture = &desc->anisotropy_texture;
-    const uint32_t uv_set = texture->image > 0 ? texture->uv_set : desc->normal_texture.uv_set;
+    const ppm_texture mesh_axes = {.uv_set = desc->normal_texture.uv_set};
+    const ppm_texture *axes = texture->image > 0 ? texture : &mesh_axes;
     ppmi_vec3 tangent, bitangent;
     layers->anisotropy = 0.0f;
-    if (!(desc->anisotropy > 0.0f) ||
-        !ppmi_surface_tangents(surface, uv_set, &tangent, &bitangent)) {
+    if (!(desc->anisotropy > 0.0f) || !ppmi_surface_tangents(surface, axes, &tangent, &bitangent)) {
         return;
     }
     float x = 1.0f, y = 0.0f, strength = desc->anisotropy;

@@ -365,29 +365,10 @@ static ppmi_vec3 tangent_at(const ppmi_primitive *primitive, uint32_t vertex, fl
                      at.share);
 }
 
-/* From the mesh: bitangent = cross(normal, tangent) * w in object space (glTF 2.0, 3.7.2.1). */
-static bool mesh_tangents(const ppmi_surface *surface, ppmi_vec3 *tangent, ppmi_vec3 *bitangent)
-{
-    const ppmi_primitive *primitive = surface->primitive;
-    if (!primitive->tangents || !primitive->normals) return false;
-    const uint32_t *triangle = triangle_of(surface);
-    const float u = surface->u, v = surface->v, time = surface->time;
-    const ppmi_vec3 a = tangent_at(primitive, triangle[0], time);
-    const ppmi_vec3 b = tangent_at(primitive, triangle[1], time);
-    const ppmi_vec3 c = tangent_at(primitive, triangle[2], time);
-    const ppmi_vec3 t = vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
-    const float sign = primitive->tangents[4 * (size_t)triangle[0] + 3] < 0.0f ? -1.0f : 1.0f;
-    const ppmi_vec3 n = local_normal(surface);
-    const ppmi_transform to_world = ppmi_instance_at(surface->instance, time);
-    *tangent = vec3_normalize(ppmi_transform_vector(&to_world, t));
-    *bitangent =
-        vec3_normalize(ppmi_transform_vector(&to_world, vec3_scale(vec3_cross(n, t), sign)));
-    return vec3_length2(*tangent) > 0.5f && vec3_length2(*bitangent) > 0.5f;
-}
-
-/* From the derivatives of the coordinates over the triangle; v runs down, the bitangent up. */
-static bool uv_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *tangent,
-                        ppmi_vec3 *bitangent)
+/* Derivatives of the position by the coordinates over the triangle, object space, both times the
+ * same positive factor. */
+static bool uv_derivatives(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *out_dpdu,
+                           ppmi_vec3 *out_dpdv)
 {
     const float *uvs = surface->primitive->uvs[uv_set];
     if (!uvs) return false;
@@ -401,20 +382,89 @@ static bool uv_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 
     const float determinant = du1 * dv2 - du2 * dv1;
     if (determinant == 0.0f || !isfinite(determinant)) return false;
     const float sign = determinant > 0.0f ? 1.0f : -1.0f;
-    const ppmi_vec3 dpdu = vec3_scale(vec3_sub(vec3_scale(e1, dv2), vec3_scale(e2, dv1)), sign);
-    const ppmi_vec3 dpdv = vec3_scale(vec3_sub(vec3_scale(e2, du1), vec3_scale(e1, du2)), sign);
+    *out_dpdu = vec3_scale(vec3_sub(vec3_scale(e1, dv2), vec3_scale(e2, dv1)), sign);
+    *out_dpdv = vec3_scale(vec3_sub(vec3_scale(e2, du1), vec3_scale(e1, du2)), sign);
+    return true;
+}
+
+/* Sign of the determinant of the texture's transform where that turns or mirrors the axes of the
+ * picture against those of the coordinates; else, or where it is singular, 0. */
+static float turning(const ppm_texture *texture)
+{
+    const float *m = texture->uv_transform;
+    if (!texture->has_transform) return 0.0f;
+    if (m[1] == 0.0f && m[3] == 0.0f && m[0] > 0.0f && m[4] > 0.0f) return 0.0f;
+    const float determinant = m[0] * m[4] - m[1] * m[3];
+    if (determinant == 0.0f || !isfinite(determinant)) return 0.0f;
+    return determinant > 0.0f ? 1.0f : -1.0f;
+}
+
+/* Tangents of a mesh have directions but no lengths, and with an uneven transform the axes of the
+ * picture depend on both: the lengths are the triangle's. The bitangent stays perpendicular, as if
+ * the tangents had been computed for the transformed coordinates. */
+static void turn_mesh_tangents(const ppmi_surface *surface, const ppm_texture *texture,
+                               float turned, ppmi_vec3 *tangent, ppmi_vec3 *bitangent)
+{
+    const float *m = texture->uv_transform;
+    const ppmi_vec3 t = vec3_normalize(*tangent), b = vec3_normalize(*bitangent);
+    ppmi_vec3 dpdu, dpdv;
+    float along = m[4] * turned, across = m[3] * turned;
+    if (uv_derivatives(surface, texture->uv_set, &dpdu, &dpdv)) {
+        along *= vec3_length(dpdu);
+        across *= vec3_length(dpdv);
+    }
+    *tangent = vec3_mad(vec3_scale(t, along), b, across);
+    *bitangent = vec3_mad(vec3_scale(t, -across * turned), b, along * turned);
+}
+
+/* From the mesh: bitangent = cross(normal, tangent) * w in object space (glTF 2.0, 3.7.2.1). */
+static bool mesh_tangents(const ppmi_surface *surface, const ppm_texture *texture,
+                          ppmi_vec3 *tangent, ppmi_vec3 *bitangent)
+{
+    const ppmi_primitive *primitive = surface->primitive;
+    if (!primitive->tangents || !primitive->normals) return false;
+    const uint32_t *triangle = triangle_of(surface);
+    const float u = surface->u, v = surface->v, time = surface->time;
+    const ppmi_vec3 a = tangent_at(primitive, triangle[0], time);
+    const ppmi_vec3 b = tangent_at(primitive, triangle[1], time);
+    const ppmi_vec3 c = tangent_at(primitive, triangle[2], time);
+    ppmi_vec3 t = vec3_mad(vec3_mad(vec3_scale(a, 1.0f - u - v), b, u), c, v);
+    const float sign = primitive->tangents[4 * (size_t)triangle[0] + 3] < 0.0f ? -1.0f : 1.0f;
+    ppmi_vec3 across = vec3_scale(vec3_cross(local_normal(surface), t), sign);
+    const float turned = turning(texture);
+    if (turned != 0.0f) turn_mesh_tangents(surface, texture, turned, &t, &across);
+    const ppmi_transform to_world = ppmi_instance_at(surface->instance, time);
+    *tangent = vec3_normalize(ppmi_transform_vector(&to_world, t));
+    *bitangent = vec3_normalize(ppmi_transform_vector(&to_world, across));
+    return vec3_length2(*tangent) > 0.5f && vec3_length2(*bitangent) > 0.5f;
+}
+
+/* v runs down, the bitangent up. The axes of the picture are the columns of the inverse of the
+ * texture's transform. */
+static bool uv_tangents(const ppmi_surface *surface, const ppm_texture *texture, ppmi_vec3 *tangent,
+                        ppmi_vec3 *bitangent)
+{
+    ppmi_vec3 dpdu, dpdv;
+    if (!uv_derivatives(surface, texture->uv_set, &dpdu, &dpdv)) return false;
+    const float turned = turning(texture);
+    if (turned != 0.0f) {
+        const float *m = texture->uv_transform;
+        const ppmi_vec3 u = vec3_scale(dpdu, turned), v = vec3_scale(dpdv, turned);
+        dpdu = vec3_mad(vec3_scale(u, m[4]), v, -m[3]);
+        dpdv = vec3_mad(vec3_scale(v, m[0]), u, -m[1]);
+    }
     const ppmi_transform to_world = ppmi_instance_at(surface->instance, surface->time);
     *tangent = vec3_normalize(ppmi_transform_vector(&to_world, dpdu));
     *bitangent = vec3_neg(vec3_normalize(ppmi_transform_vector(&to_world, dpdv)));
     return vec3_length2(*tangent) > 0.5f && vec3_length2(*bitangent) > 0.5f;
 }
 
-bool ppmi_surface_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *out_tangent,
-                           ppmi_vec3 *out_bitangent)
+bool ppmi_surface_tangents(const ppmi_surface *surface, const ppm_texture *texture,
+                           ppmi_vec3 *out_tangent, ppmi_vec3 *out_bitangent)
 {
     if (surface->primitive->kind != PPM_PRIMITIVE_TRIANGLES) return false;
-    return mesh_tangents(surface, out_tangent, out_bitangent) ||
-           uv_tangents(surface, uv_set, out_tangent, out_bitangent);
+    return mesh_tangents(surface, texture, out_tangent, out_bitangent) ||
+           uv_tangents(surface, texture, out_tangent, out_bitangent);
 }
 
 float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface)

@@ -57,10 +57,12 @@ static inline ppmi_texel ppmi_surface_texture(const ppm_scene *scene, const ppmi
 /* Vertex colour and alpha; all 1 where the mesh has none. */
 void ppmi_surface_vertex_color(const ppmi_surface *surface, float out_rgba[4]);
 
-/* Unit tangent and bitangent for normal maps on the given texture coordinates, from the mesh's
- * tangents, else from the coordinates' derivatives. False where neither exists. */
-bool ppmi_surface_tangents(const ppmi_surface *surface, uint32_t uv_set, ppmi_vec3 *out_tangent,
-                           ppmi_vec3 *out_bitangent);
+/* Unit tangent and bitangent, world space: where the picture's right and its top point on the
+ * surface. From the mesh's tangents, else from the derivatives of the texture's coordinates; turned
+ * and mirrored with the texture's transform. texture may be without image. False where there is
+ * neither. */
+bool ppmi_surface_tangents(const ppmi_surface *surface, const ppm_texture *texture,
+                           ppmi_vec3 *out_tangent, ppmi_vec3 *out_bitangent);
 
 /* Opacity at a hit, 0..1, by the alpha mode: without the rest of the material. */
 float ppmi_surface_opacity(const ppm_scene *scene, const ppmi_surface *surface);

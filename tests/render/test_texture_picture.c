@@ -203,6 +203,66 @@ static void masks_do_not_shrink_from_afar(void **state)
     family_check(&family);
 }
 
+/* A board with bumps under a lamp from the side. The transform is the normal map's, over given
+ * tangents, or is in the coordinates, without any. */
+static void add_bumpy_board(const float m[6], bool is_in_texture)
+{
+    float pixels[8 * 8 * 3];
+    for (int i = 0; i < 64; i++) {
+        pixels[3 * i] = 0.5f + 0.3f * sinf(0.785f * (float)(i % 8));
+        pixels[3 * i + 1] = 0.5f + 0.15f * sinf(1.9f * (float)(i / 8) + (float)(i % 8));
+        pixels[3 * i + 2] = 0.9f;
+    }
+    const ppm_image_desc image = {.size = sizeof image,
+                                  .role = PPM_IMAGE_DATA,
+                                  .pixels = pixels,
+                                  .pixel_type = PPM_PIXELS_F32,
+                                  .width = 8,
+                                  .height = 8,
+                                  .channels = 3};
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    ppm_texture *texture = &desc.normal_texture;
+    assert_int_equal(ppm_scene_add_image(test.scene, &image, &texture->image), PPM_STATUS_OK);
+    texture->has_transform = is_in_texture;
+    for (int i = 0; i < 6; i++)
+        texture->uv_transform[i] = m[i];
+    desc.roughness = 0.6f;
+    shape_add_board(test.scene, &desc, is_in_texture ? NULL : m, is_in_texture);
+    light_directional(test.scene, vec3(-1, 0.3f, -1), vec3(3, 3, 3));
+    camera_orthographic(test.scene, vec3(0, 0, 2), vec3(0, 0, 0), 1.0f);
+}
+
+/* The largest difference of a pixel from what it is with the transform in the coordinates. */
+static double difference_of(const float in_texture[6], const float in_coordinates[6])
+{
+    const ppm_render_options options = render_options(PPM_INTEGRATOR_PATH, SIDE, 1000);
+    float *pictures[2];
+    for (int i = 0; i < 2; i++) {
+        scene_close(&test);
+        scene_open(&test);
+        add_bumpy_board(i == 0 ? in_texture : in_coordinates, i == 0);
+        pictures[i] = render_picture(test.scene, &options, 4);
+    }
+    double largest = 0.0;
+    for (uint32_t i = 0; i < PIXELS; i++)
+        largest = fmax(largest, fabs((double)(pictures[0][4 * i + 1] - pictures[1][4 * i + 1])));
+    free(pictures[0]);
+    free(pictures[1]);
+    return largest;
+}
+
+/* KHR_texture_transform by a quarter turn: the bumps are lit from where the lamp is, not from where
+ * it would be if the board were turned. A half turn has another picture. */
+static void bumps_that_are_turned_in_the_file_are_lit_as_turned_coordinates(void **state)
+{
+    (void)state;
+    static const float quarter[6] = {0, 1, 0, -1, 0, 1}, half[6] = {-1, 0, 1, 0, -1, 1};
+    assert_near(difference_of(quarter, quarter), 0.0, 1e-3);
+    assert_near(difference_of(half, half), 0.0, 1e-3);
+    assert_true(difference_of(quarter, half) > 0.1);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_scene, close_scene)
 
 int main(void)
@@ -212,6 +272,7 @@ int main(void)
         TEST(the_picture_is_that_of_many_samples),
         TEST(blur_goes_away_with_the_passes),
         TEST(masks_do_not_shrink_from_afar),
+        TEST(bumps_that_are_turned_in_the_file_are_lit_as_turned_coordinates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -180,6 +181,66 @@ static void a_flat_normal_map_changes_nothing(void **state)
     assert_near(point.ns.z, 1.0, 1e-6);
 }
 
+/* A picture of directions, each texel another one: no turn or mirroring of it is like another. */
+static ppm_image_id many_directions(void)
+{
+    float pixels[4 * 4 * 3];
+    for (int i = 0; i < 16; i++) {
+        pixels[3 * i] = 0.5f + 0.4f * sinf(1.7f * (float)i + 0.3f);
+        pixels[3 * i + 1] = 0.5f + 0.4f * sinf(2.9f * (float)i + 1.1f);
+        pixels[3 * i + 2] = 0.9f;
+    }
+    const ppm_image_desc desc = {.size = sizeof desc,
+                                 .role = PPM_IMAGE_DATA,
+                                 .pixels = pixels,
+                                 .pixel_type = PPM_PIXELS_F32,
+                                 .width = 4,
+                                 .height = 4,
+                                 .channels = 3};
+    ppm_image_id id = 0;
+    assert_int_equal(ppm_scene_add_image(test.scene, &desc, &id), PPM_STATUS_OK);
+    return id;
+}
+
+/* A board under a texture in all slots that hold directions. The transform m is the texture's, over
+ * given tangents, or is in the coordinates, without any. */
+static void place_directions(const float m[6], bool is_in_texture, ppm_image_id image)
+{
+    ppm_material_desc desc = defaults();
+    ppm_texture texture = {.image = image, .has_transform = is_in_texture};
+    memcpy(texture.uv_transform, m, sizeof texture.uv_transform);
+    desc.clearcoat = 1.0f;
+    desc.anisotropy = 1.0f;
+    desc.anisotropy_rotation_rad = 0.4f;
+    desc.normal_texture = desc.clearcoat_normal_texture = desc.anisotropy_texture = texture;
+    shape_add_board(test.scene, &desc, is_in_texture ? NULL : m, is_in_texture);
+}
+
+static void turned_pictures_of_directions_are_like_turned_coordinates(void **state)
+{
+    (void)state;
+    static const float turns[][6] = {
+        {0, 1, 0, -1, 0, 1}, {0.6f, 0.8f, 0.1f, -0.8f, 0.6f, 0}, {-1, 0, 1, 0, 1, 0}};
+    const ppm_image_id image = many_directions();
+    for (uint32_t turn = 0; turn < 3; turn++) {
+        place_directions(turns[turn], true, image);
+        place_directions(turns[turn], false, image);
+        for (uint32_t i = 0; i < 32; i++) {
+            const float u = 0.03f + 0.11f * (float)(i % 4), v = 0.05f + 0.12f * (float)(i / 8);
+            ppmi_material_point got, expected;
+            ppmi_surface surface = surface_at(2 * turn, i / 4 % 2, u, v);
+            ppmi_material_evaluate(test.scene, &surface, &got);
+            surface = surface_at(2 * turn + 1, i / 4 % 2, u, v);
+            ppmi_material_evaluate(test.scene, &surface, &expected);
+            assert_near(vec3_length(vec3_sub(got.ns, expected.ns)), 0.0, 1e-4);
+            assert_near(vec3_length(vec3_sub(got.layers.coat_normal, expected.layers.coat_normal)),
+                        0.0, 1e-4);
+            assert_near(vec3_length(vec3_sub(got.layers.tangent, expected.layers.tangent)), 0.0,
+                        1e-4);
+        }
+    }
+}
+
 static void alpha_follows_its_mode(void **state)
 {
     (void)state;
@@ -286,6 +347,7 @@ int main(void)
         WITH_SCENE(glossiness_stands_in_alpha_and_is_one_less_roughness),
         WITH_SCENE(a_normal_map_tilts_the_normal),
         WITH_SCENE(a_flat_normal_map_changes_nothing),
+        WITH_SCENE(turned_pictures_of_directions_are_like_turned_coordinates),
         WITH_SCENE(alpha_follows_its_mode),
         WITH_SCENE(emission_has_one_side_or_two),
         WITH_SCENE(a_mirrored_instance_emits_from_its_outside),

@@ -25,8 +25,8 @@ typedef struct fixture {
 } fixture;
 
 /* The roof, scaled along the axes. */
-static void open_roof(fixture *f, const float *mesh_normals, const float *mesh_tangents,
-                      float scale_x, float scale_y)
+static void open_roof_with(fixture *f, const float *mesh_uvs, const float *mesh_normals,
+                           const float *mesh_tangents, float scale_x, float scale_y)
 {
     scene_open(&f->test);
     const ppm_primitive_desc primitive = {.vertex_count = 6,
@@ -34,7 +34,7 @@ static void open_roof(fixture *f, const float *mesh_normals, const float *mesh_t
                                           .positions = positions,
                                           .normals = mesh_normals,
                                           .tangents = mesh_tangents,
-                                          .uvs = {uvs},
+                                          .uvs = {mesh_uvs},
                                           .indices = indices};
     const ppm_mesh_desc mesh = {
         .size = sizeof mesh, .primitive_count = 1, .primitives = &primitive};
@@ -45,6 +45,12 @@ static void open_roof(fixture *f, const float *mesh_normals, const float *mesh_t
     assert_int_equal(ppm_scene_add_mesh(f->test.scene, &mesh, &instance.mesh), PPM_STATUS_OK);
     assert_int_equal(ppm_scene_add_instance(f->test.scene, &instance, &id), PPM_STATUS_OK);
     world_open(&f->world, &f->test);
+}
+
+static void open_roof(fixture *f, const float *mesh_normals, const float *mesh_tangents,
+                      float scale_x, float scale_y)
+{
+    open_roof_with(f, uvs, mesh_normals, mesh_tangents, scale_x, scale_y);
 }
 
 static void close_roof(fixture *f)
@@ -105,14 +111,85 @@ static void tangents_are_mirrored_with_their_mesh(void **state)
     for (size_t i = 0; i < sizeof scales / sizeof scales[0]; ++i) {
         const float sx = scales[i][0], sy = scales[i][1];
         for (int is_given = 0; is_given < 2; ++is_given) {
+            const ppm_texture plain = {0};
             ppmi_vec3 tangent, bitangent;
             fixture f;
             open_roof(&f, smooth, is_given ? tangents : NULL, sx, sy);
             const ppmi_surface s = look_down(&f, -0.5f * sx, 0.5f * sy);
-            assert_true(ppmi_surface_tangents(&s, 0, &tangent, &bitangent));
+            assert_true(ppmi_surface_tangents(&s, &plain, &tangent, &bitangent));
             assert_near(tangent, sx, 0, 0);
             assert_near(bitangent, 0, sy, 0);
             close_roof(&f);
+        }
+    }
+}
+
+/* Turns and scales: the first four keep right angles, also on coordinates that are stretched. */
+static const float transforms[][6] = {
+    {0, 1, 0, -1, 0, 1},
+    {-1, 0, 1, 0, -1, 1},
+    {-1, 0, 0, 0, 1, 0},
+    {0, 2, 0.5f, 3, 0, 0.25f},
+    {0.6f, 0.8f, 0, -0.8f, 0.6f, 0},
+    {2, 1, 0, 0, -0.5f, 0},
+};
+
+/* The tangents of the roof's left square, under a texture with the transform or, if it is NULL,
+ * under a plain one. */
+static void tangents_under(const float *mesh_uvs, const float *mesh_tangents,
+                           const float *transform, ppmi_vec3 *tangent, ppmi_vec3 *bitangent)
+{
+    ppm_texture texture = {.has_transform = transform != NULL};
+    fixture f;
+    for (int i = 0; transform && i < 6; ++i) {
+        texture.uv_transform[i] = transform[i];
+    }
+    open_roof_with(&f, mesh_uvs, smooth, mesh_tangents, 1.0f, 1.0f);
+    const ppmi_surface s = look_down(&f, -0.4f, 0.3f);
+    assert_true(ppmi_surface_tangents(&s, &texture, tangent, bitangent));
+    close_roof(&f);
+}
+
+/* KHR_texture_transform: a picture that is turned in the file looks like one that is turned by
+ * coordinates that have the transform in them. Those have no transform, and no tangents. */
+static void tangents_turn_with_the_picture(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof transforms / sizeof transforms[0]; ++i) {
+        const float *m = transforms[i];
+        for (int stretch = 1; stretch <= 3; stretch += 2) {
+            float before[12], after[12];
+            for (size_t v = 0; v < 6; ++v) {
+                before[2 * v] = uvs[2 * v] * (float)stretch;
+                before[2 * v + 1] = uvs[2 * v + 1];
+                after[2 * v] = m[0] * before[2 * v] + m[1] * before[2 * v + 1] + m[2];
+                after[2 * v + 1] = m[3] * before[2 * v] + m[4] * before[2 * v + 1] + m[5];
+            }
+            ppmi_vec3 right, top, tangent, bitangent;
+            tangents_under(after, NULL, NULL, &right, &top);
+            tangents_under(before, NULL, m, &tangent, &bitangent);
+            assert_near(tangent, right.x, right.y, right.z);
+            assert_near(bitangent, top.x, top.y, top.z);
+            tangents_under(before, tangents, m, &tangent, &bitangent);
+            assert_near(tangent, right.x, right.y, right.z);
+            /* given tangents keep a right angle: on the side where the picture's top is */
+            const ppmi_vec3 across = vec3_normalize(vec3_mad(top, right, -vec3_dot(top, right)));
+            assert_near(bitangent, across.x, across.y, across.z);
+        }
+    }
+}
+
+static void transforms_that_only_stretch_or_are_singular_leave_tangents_alone(void **state)
+{
+    (void)state;
+    static const float others[][6] = {
+        {2, 0, 0.5f, 0, 3, 0.5f}, {0, 0, 0, 0, 0, 0}, {1, 1, 0, 1, 1, 0}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        for (int is_given = 0; is_given < 2; ++is_given) {
+            ppmi_vec3 tangent, bitangent;
+            tangents_under(uvs, is_given ? tangents : NULL, others[i], &tangent, &bitangent);
+            assert_near(tangent, 1, 0, 0);
+            assert_near(bitangent, 0, 1, 0);
         }
     }
 }
@@ -123,6 +200,8 @@ int main(void)
         cmocka_unit_test(without_normals_faces_are_flat_up_to_their_edges),
         cmocka_unit_test(mirrors_keep_the_front_in_front),
         cmocka_unit_test(tangents_are_mirrored_with_their_mesh),
+        cmocka_unit_test(tangents_turn_with_the_picture),
+        cmocka_unit_test(transforms_that_only_stretch_or_are_singular_leave_tangents_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,3 +158,27 @@ void add_quad(ppm_scene *scene, ppm_material_id material, ppmi_vec3 origin, ppmi
 {
     shape_place(scene, shape_quad(scene, material, origin, edge_u, edge_v));
 }
+
+void shape_add_board(ppm_scene *scene, const ppm_material_desc *desc, const float m[6],
+                     bool has_tangents)
+{
+    static const float positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    static const float normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    static const float tangents[16] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    float uvs[8] = {0, 1, 1, 1, 1, 0, 0, 0};
+    for (int i = 0; i < 4 && m; i++) {
+        const float u = uvs[2 * i], v = uvs[2 * i + 1];
+        uvs[2 * i] = m[0] * u + m[1] * v + m[2];
+        uvs[2 * i + 1] = m[3] * u + m[4] * v + m[5];
+    }
+    ppm_primitive_desc primitive = {.vertex_count = 4,
+                                    .triangle_count = 2,
+                                    .positions = positions,
+                                    .normals = normals,
+                                    .tangents = has_tangents ? tangents : NULL,
+                                    .uvs = {uvs},
+                                    .indices = indices};
+    assert_int_equal(ppm_scene_add_material(scene, desc, &primitive.material), PPM_STATUS_OK);
+    shape_place(scene, shape_mesh(scene, &primitive));
+}

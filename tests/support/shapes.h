@@ -30,4 +30,10 @@ ppm_instance_id shape_place_by(ppm_scene *scene, ppm_mesh_id mesh, const float t
 void add_quad(ppm_scene *scene, ppm_material_id material, ppmi_vec3 origin, ppmi_vec3 edge_u,
               ppmi_vec3 edge_v);
 
+/* The square from -1 to 1 in the plane z = 0, facing +z, with normals, placed at once. Texture
+ * coordinates run from (0, 0) at the upper left, v down, and then through m (as uv_transform in
+ * ppm_texture; NULL: not). Tangents are +x where wanted. */
+void shape_add_board(ppm_scene *scene, const ppm_material_desc *desc, const float m[6],
+                     bool has_tangents);
+
 #endif
