@@ -163,10 +163,10 @@ static bool take_memory(ppm_context *context, size_t pixels, filter_memory *memo
 }
 
 ppm_status ppmi_denoise(ppm_context *context, const ppmi_denoise_guide *guide,
-                        const float *variance, float correlation_px, float *light)
+                        const ppmi_denoise_noise *noise, float *light)
 {
     const size_t pixels = (size_t)guide->width * guide->height;
-    if (!is_noisy(variance, 3 * pixels)) return PPM_STATUS_OK;
+    if (!is_noisy(noise->variance, 3 * pixels)) return PPM_STATUS_OK;
     filter_memory memory;
     if (!take_memory(context, pixels, &memory)) {
         give_memory_back(context, &memory);
@@ -174,12 +174,13 @@ ppm_status ppmi_denoise(ppm_context *context, const ppmi_denoise_guide *guide,
                          guide->width, guide->height);
     }
     fill_guide(guide, memory.planes);
-    fill_light(guide, light, variance, &memory);
-    const ppmi_nl_input input = {guide->width, guide->height, guide->threads, correlation_px,
+    fill_light(guide, light, noise->variance, &memory);
+    const ppmi_nl_input input = {guide->width, guide->height, guide->threads, noise->correlation_px,
                                  memory.planes};
     const ppm_status status = ppmi_nl_means(context, &input, memory.candidates);
     if (status == PPM_STATUS_OK) {
-        ppmi_denoise_choose(guide->width, guide->height, memory.candidates, memory.scratch, light);
+        ppmi_denoise_choose(guide->width, guide->height, memory.candidates, noise->is_blurred,
+                            memory.scratch, light);
     }
     give_memory_back(context, &memory);
     return status;

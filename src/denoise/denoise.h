@@ -18,11 +18,17 @@ typedef struct ppmi_denoise_guide {
     uint32_t threads;
 } ppmi_denoise_guide;
 
-/* Filters light, 3 floats a pixel, in place. variance: of each of its values, as estimated;
- * correlation_px: the radius in pixels of the disks over which noise is alike, as of photons that
- * several pixels gather, and 0 where each pixel's noise is its own. The same bits with any number
- * of threads. Values and variances are finite and not negative. Returns OK, OUT_OF_MEMORY. */
+/* What is known of the error of light. */
+typedef struct ppmi_denoise_noise {
+    const float *variance; /* of each value, as estimated: 3 a pixel, finite, not negative */
+    float correlation_px;  /* radius of the disks over which noise is alike, as of photons that
+                            * several pixels gather; 0 where each pixel's noise is its own */
+    bool is_blurred;       /* has an error besides noise that a filter adds to, as caustics have */
+} ppmi_denoise_noise;
+
+/* Filters light, 3 finite floats a pixel that are not negative, in place. The same bits with any
+ * number of threads. Returns OK, OUT_OF_MEMORY. */
 ppm_status ppmi_denoise(ppm_context *context, const ppmi_denoise_guide *guide,
-                        const float *variance, float correlation_px, float *light);
+                        const ppmi_denoise_noise *noise, float *light);
 
 #endif

@@ -3,10 +3,12 @@
 #include "render/denoised.h"
 
 #include "denoise/denoise.h"
+#include "denoise/stratified.h"
+#include "render/light_film.h"
 
 /* Pictures of three floats a pixel but for depth and share. */
 typedef struct denoised_memory {
-    float *albedo, *normal, *depth, *light, *filtered, *variance;
+    float *albedo, *normal, *depth, *light, *filtered, *variance, *first, *scratch;
     float *share; /* of what the filter changes that the picture takes; NULL: all of it */
 } denoised_memory;
 
@@ -23,20 +25,18 @@ static void give_memory_back(const ppmi_job *job, denoised_memory *memory)
     ppmi_free(job->context, memory->light);
     ppmi_free(job->context, memory->filtered);
     ppmi_free(job->context, memory->variance);
+    ppmi_free(job->context, memory->first);
+    ppmi_free(job->context, memory->scratch);
     ppmi_free(job->context, memory->share);
 }
 
 static ppm_status take_memory(const ppmi_job *job, denoised_memory *memory)
 {
-    *memory = (denoised_memory){make_plane(job, 3),
-                                make_plane(job, 3),
-                                make_plane(job, 1),
-                                make_plane(job, 3),
-                                make_plane(job, 3),
-                                make_plane(job, 3),
-                                NULL};
+    *memory = (denoised_memory){make_plane(job, 3), make_plane(job, 3), make_plane(job, 1),
+                                make_plane(job, 3), make_plane(job, 3), make_plane(job, 3),
+                                make_plane(job, 3), make_plane(job, 3), NULL};
     if (memory->albedo && memory->normal && memory->depth && memory->light && memory->filtered &&
-        memory->variance) {
+        memory->variance && memory->first && memory->scratch) {
         return PPM_STATUS_OK;
     }
     give_memory_back(job, memory);
@@ -99,6 +99,24 @@ static float radius_in_pixels(const ppmi_denoised_source *source, const float *d
     return count > 0.0 ? (float)(sum / count) : 0.0f;
 }
 
+/* The eye's own samples of lamps, and of the surfaces that it sees, are stratified from pass to
+ * pass. Highlights are left out: a few bright pixels would speak for all around them. */
+static void read_variance(const ppmi_denoised_source *source, int32_t kind,
+                          const denoised_memory *memory)
+{
+    const ppmi_job *job = source->job;
+    source->integrator->read_layer(job, source->state, PPM_LAYER_LIGHT_VARIANCE,
+                                   (uint32_t)(kind - PPM_LAYER_DIFFUSE_DIRECT), source->passes,
+                                   memory->variance);
+    if (kind != PPM_LAYER_DIFFUSE_DIRECT || source->passes < 3) return;
+    source->integrator->read_layer(job, source->state, PPMI_LAYER_FIRST_PASSES, 0, source->passes,
+                                   memory->first);
+    const float first = (float)ppmi_light_first_passes(source->passes);
+    const ppmi_stratified_means means = {job->film.width, job->film.height, memory->light,
+                                         memory->first, first / (float)source->passes};
+    ppmi_denoise_lower_variance(&means, memory->variance, memory->scratch);
+}
+
 static ppm_status filter_layer(const ppmi_denoised_source *source, int32_t kind,
                                const ppmi_denoise_guide *guide, float radius_px,
                                const denoised_memory *memory, float *rgba)
@@ -108,12 +126,11 @@ static ppm_status filter_layer(const ppmi_denoised_source *source, int32_t kind,
     const ppmi_integrator *integrator = source->integrator;
     integrator->read_layer(job, source->state, kind, 0, source->passes, memory->light);
     integrator->read_layer(job, source->state, kind, 0, source->passes, memory->filtered);
-    integrator->read_layer(job, source->state, PPM_LAYER_LIGHT_VARIANCE,
-                           (uint32_t)(kind - PPM_LAYER_DIFFUSE_DIRECT), source->passes,
-                           memory->variance);
-    const float correlation_px = is_of_photons(job, kind) ? radius_px : 0.0f;
-    const ppm_status status =
-        ppmi_denoise(job->context, guide, memory->variance, correlation_px, memory->filtered);
+    read_variance(source, kind, memory);
+    const bool is_smooth = is_of_photons(job, kind);
+    const ppmi_denoise_noise noise = {memory->variance, is_smooth ? radius_px : 0.0f,
+                                      is_smooth && kind == PPM_LAYER_CAUSTICS};
+    const ppm_status status = ppmi_denoise(job->context, guide, &noise, memory->filtered);
     if (status != PPM_STATUS_OK) return status;
     for (size_t i = 0; i < 3 * pixels; i++) {
         const float share = memory->share ? memory->share[i / 3] : 1.0f;

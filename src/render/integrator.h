@@ -54,8 +54,9 @@ typedef struct ppmi_integrator {
     ppm_status (*pass)(const ppmi_job *job, void *state, uint64_t pass, ppm_render_stats *stats);
     /* The film's picture after passes finished passes: RGBA, row 0 on top. */
     void (*resolve)(const ppmi_job *job, const void *state, uint64_t passes, float *rgba);
-    /* One of the layers that are the integrator's own (PPM_LAYER_DIFFUSE_DIRECT .. RADIUS and
-     * LIGHT_VARIANCE), number counts groups or classes; values as in ppm_render_read_layer. */
+    /* One of the layers that are the integrator's own (PPM_LAYER_DIFFUSE_DIRECT .. RADIUS,
+     * LIGHT_VARIANCE and FIRST_PASSES), number counts groups or classes; values as in
+     * ppm_render_read_layer. */
     void (*read_layer)(const ppmi_job *job, const void *state, int32_t kind, uint32_t number,
                        uint64_t passes, float *values);
 } ppmi_integrator;
@@ -63,6 +64,10 @@ typedef struct ppmi_integrator {
 extern const ppmi_integrator ppmi_integrator_sppm;
 extern const ppmi_integrator ppmi_integrator_ppm;
 extern const ppmi_integrator ppmi_integrator_path;
+
+/* A layer for the denoiser alone, kept with DENOISED: DIFFUSE_DIRECT as it was after the first
+ * ppmi_light_first_passes of the passes. */
+enum { PPMI_LAYER_FIRST_PASSES = PPM_LAYER_KINDS };
 
 /* The pilot's paths: a pass number that no pass reaches. */
 #define PPMI_PILOT_PASS (UINT64_MAX >> 24)

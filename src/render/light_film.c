@@ -60,6 +60,7 @@ static ppmi_light_record lay_out(const ppmi_job *job, const ppmi_light_planes *p
     record.variance = place(&record, has_variance, 3);
     record.class_variance =
         place(&record, wants(job, PPM_LAYER_LIGHT_VARIANCE), 3 * (size_t)CLASSES);
+    record.first_passes = place(&record, wants(job, PPM_LAYER_DENOISED), 3);
     record.density = place(&record, wants(job, PPM_LAYER_PHOTON_DENSITY), 1);
     record.radius = place(&record, wants(job, PPM_LAYER_RADIUS), 1);
     record.catcher = place(&record, keeps_catchers(job), 4);
@@ -134,6 +135,15 @@ static void add_class_squares(const ppmi_light_film *film, float *record, uint64
     }
 }
 
+/* Keeps the sum over the passes so far if their number is a power of two. */
+static void keep_first_passes(const ppmi_light_film *film, float *record, uint64_t passes)
+{
+    if (passes == 0 || (passes & (passes - 1)) != 0) return;
+    const size_t plane = (size_t)film->planes.of_class[PPM_LAYER_DIFFUSE_DIRECT];
+    memcpy(record + film->record.first_passes, record + film->record.planes + 3 * plane,
+           3 * sizeof *record);
+}
+
 void ppmi_light_film_add(ppmi_light_film *film, size_t pixel, uint64_t pass,
                          const ppmi_light_pass *light)
 {
@@ -141,6 +151,7 @@ void ppmi_light_film_add(ppmi_light_film *film, size_t pixel, uint64_t pass,
     float *record = film->next + pixel * at->size;
     memcpy(record, film->now + pixel * at->size, at->size * sizeof *record);
     if (at->class_variance != SIZE_MAX) add_class_squares(film, record, pass, light);
+    if (at->first_passes != SIZE_MAX) keep_first_passes(film, record, pass);
     for (size_t i = 0; i < film->planes.count; i++)
         add_to(record + at->planes + 3 * i, light->planes[i]);
     if (at->variance != SIZE_MAX) {
@@ -186,6 +197,8 @@ static size_t place_of(const ppmi_light_film *film, int32_t kind, uint32_t numbe
         return at->variance;
     case PPM_LAYER_LIGHT_VARIANCE:
         return at->class_variance + 3 * (size_t)number;
+    case PPMI_LAYER_FIRST_PASSES:
+        return at->first_passes;
     case PPM_LAYER_CATCHER:
         return at->catcher;
     case PPM_LAYER_PHOTON_DENSITY:
@@ -195,6 +208,14 @@ static size_t place_of(const ppmi_light_film *film, int32_t kind, uint32_t numbe
     default:
         return at->planes + 3 * (size_t)planes->of_class[kind];
     }
+}
+
+uint64_t ppmi_light_first_passes(uint64_t passes)
+{
+    uint64_t first = 1;
+    while (2 * first < passes)
+        first *= 2;
+    return first;
 }
 
 /* What a value is multiplied by. */
@@ -207,6 +228,8 @@ static float scale_of(int32_t kind, uint64_t passes)
     case PPM_LAYER_PHOTON_DENSITY:
     case PPM_LAYER_RADIUS:
         return 1.0f;
+    case PPMI_LAYER_FIRST_PASSES:
+        return 1.0f / (float)ppmi_light_first_passes(passes);
     default:
         return 1.0f / (float)passes;
     }

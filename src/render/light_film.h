@@ -14,7 +14,8 @@
 
 /* Where a pixel's values are, in floats; SIZE_MAX: is not kept. */
 typedef struct ppmi_light_record {
-    size_t planes, combined, variance, class_variance, density, radius, seen_through, catcher;
+    size_t planes, combined, variance, class_variance, first_passes, density, radius, seen_through,
+        catcher;
     size_t size;
 } ppmi_light_record;
 
@@ -77,5 +78,9 @@ float ppmi_light_film_alpha(const ppmi_light_film *film, size_t pixel, uint64_t 
 /* As ppmi_integrator.read_layer. */
 void ppmi_light_film_read(const ppmi_job *job, const ppmi_light_film *film, int32_t kind,
                           uint32_t number, uint64_t passes, float *values);
+
+/* The number of passes that PPMI_LAYER_FIRST_PASSES is of: the largest power of two below passes,
+ * which are at least two. */
+uint64_t ppmi_light_first_passes(uint64_t passes);
 
 #endif

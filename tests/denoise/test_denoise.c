@@ -127,7 +127,8 @@ static ppm_status denoise(float correlation_px)
                                       .normal = noisy.normal,
                                       .depth = noisy.depth,
                                       .threads = noisy.threads};
-    return ppmi_denoise(context, &guide, noisy.variance, correlation_px, noisy.light);
+    const ppmi_denoise_noise noise = {.variance = noisy.variance, .correlation_px = correlation_px};
+    return ppmi_denoise(context, &guide, &noise, noisy.light);
 }
 
 static double mean_square_error(void)

@@ -223,7 +223,7 @@ static void the_error_does_not_grow_in_any_scene(void **state)
 {
     (void)state;
     static const char *const names[] = {"caustic_box", "glass_table", "interior", "pool"};
-    static const trial trials[] = {{PPM_INTEGRATOR_PATH, 8, 128}, {PPM_INTEGRATOR_SPPM, 8, 128}};
+    static const trial trials[] = {{PPM_INTEGRATOR_PATH, 8, 512}, {PPM_INTEGRATOR_SPPM, 8, 512}};
     test_family family = {0};
     for (size_t i = 0; i < 4; i++) {
         open_sample(names[i]);
