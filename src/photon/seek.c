@@ -18,6 +18,7 @@ typedef struct found_list {
 typedef struct seek_state {
     const ppmi_seek *seek;
     found_list narrow, gathered;
+    found_list lighting; /* what lights visible points by one bounce */
 } seek_state;
 
 static void keep(found_list *list, const ppmi_vertex *vertex, float spacing)
@@ -59,7 +60,7 @@ static bool follow(seek_state *state, ppmi_walker *walker, ppmi_ray ray, ppmi_ra
     return false;
 }
 
-/* What may send light to a visible point by way of mirrors and glass. */
+/* What may send light to a visible point: by way of mirrors and glass, or by a bounce. */
 static void send_importons(seek_state *state, const ppmi_walker *walker, const ppmi_vertex *from,
                            const ppmi_bsdf *bsdf)
 {
@@ -79,7 +80,9 @@ static void send_importons(seek_state *state, const ppmi_walker *walker, const p
         ppmi_vertex vertex;
         ppmi_bsdf there;
         const uint32_t gathered = state->gathered.count;
-        follow(state, &next, ray, PPMI_RAY_OTHER, 0.0f, spread, &vertex, &there);
+        if (follow(state, &next, ray, PPMI_RAY_OTHER, 0.0f, spread, &vertex, &there)) {
+            keep(&state->lighting, &vertex, 0.0f);
+        }
         state->gathered.count = gathered; /* is not seen */
     }
 }
@@ -120,28 +123,48 @@ static float median(const found_list *list, int axis, float *scratch)
     return scratch[list->count / 2];
 }
 
-/* The visible points within a radius, with room for what lights them by one bounce. */
-static ppmi_target surroundings(const found_list *list, ppmi_vec3 middle, float radius)
+typedef struct place_bounds {
+    ppmi_vec3 low, high;
+} place_bounds;
+
+/* Takes in the places within a radius. Returns how many they are. */
+static uint32_t take_in(const found_list *list, ppmi_vec3 middle, float radius,
+                        place_bounds *bounds)
 {
-    const float room = 1.3f, flattest = 0.2f;
-    ppmi_vec3 low = middle, high = middle;
+    uint32_t count = 0;
     for (uint32_t i = 0; i < list->count; i++) {
         const ppmi_vec3 p = list->found[i].target.center;
         if (vec3_length2(vec3_sub(p, middle)) > radius * radius) continue;
-        low = vec3_lower(low, p);
-        high = vec3_upper(high, p);
+        bounds->low = vec3_lower(bounds->low, p);
+        bounds->high = vec3_upper(bounds->high, p);
+        count++;
     }
-    const ppmi_vec3 half = vec3_scale(vec3_sub(high, low), 0.5f * room);
-    const float least = ppmi_max(flattest * vec3_max_component(half), 1e-6f * radius);
-    return (ppmi_target){vec3_scale(vec3_add(low, high), 0.5f),
-                         vec3_upper(half, vec3_splat(least))};
+    return count;
 }
 
-/* Half of the visible points, then what is within four times that distance, and so on. */
-static uint32_t find_levels(const ppmi_seek *seek, const found_list *list, float *scratch,
-                            ppmi_target *targets)
+/* The visible points within a radius and what lights them by a bounce from there, with room for
+ * what lights these. Returns how many places they are. */
+static uint32_t surroundings(const seek_state *state, ppmi_vec3 middle, float radius,
+                             ppmi_target *out_target)
 {
-    const float step = 4.0f, root_2 = 1.5f;
+    const float room = 1.3f, flattest = 0.2f;
+    place_bounds bounds = {middle, middle};
+    uint32_t count = take_in(&state->gathered, middle, radius, &bounds);
+    count += take_in(&state->lighting, middle, radius, &bounds);
+    const ppmi_vec3 half = vec3_scale(vec3_sub(bounds.high, bounds.low), 0.5f * room);
+    const float least = ppmi_max(flattest * vec3_max_component(half), 1e-6f * radius);
+    *out_target = (ppmi_target){vec3_scale(vec3_add(bounds.low, bounds.high), 0.5f),
+                                vec3_upper(half, vec3_splat(least))};
+    return count;
+}
+
+/* What holds half of the visible points, then four times that distance, and so on. A level that
+ * adds no place would only take photons from those that do, and one that is about as large as the
+ * scene narrows nothing. */
+static uint32_t find_levels(const seek_state *state, float *scratch, ppmi_target *targets)
+{
+    const float step = 4.0f, root_2 = 1.5f, much = 0.75f;
+    const found_list *list = &state->gathered;
     if (list->count == 0) return 0;
     const ppmi_vec3 middle =
         vec3(median(list, 0, scratch), median(list, 1, scratch), median(list, 2, scratch));
@@ -149,13 +172,16 @@ static uint32_t find_levels(const ppmi_seek *seek, const found_list *list, float
         scratch[i] = vec3_length(vec3_sub(list->found[i].target.center, middle));
     qsort(scratch, list->count, sizeof *scratch, by_float);
     ppmi_vec3 low, high;
-    ppmi_scene_bounds(seek->world->scene, &low, &high);
+    ppmi_scene_bounds(state->seek->world->scene, &low, &high);
     const float whole = 0.5f * vec3_length(vec3_sub(high, low));
+    const float largest = 0.5f * vec3_max_component(vec3_sub(high, low));
     float radius = scratch[list->count / 2] * root_2;
-    uint32_t count = 0;
-    for (; count < MAX_LEVELS && radius > 0.0f && 2.0f * radius < whole; radius *= step) {
-        targets[count] = surroundings(list, middle, radius);
-        count++;
+    uint32_t count = 0, held = 0;
+    for (; count < MAX_LEVELS && radius > 0.0f && radius < whole; radius *= step) {
+        const uint32_t holds = surroundings(state, middle, radius, &targets[count]);
+        if (vec3_max_component(targets[count].half) >= much * largest) break;
+        count += holds > held;
+        held = holds;
     }
     return count;
 }
@@ -203,7 +229,7 @@ static ppm_status choose_targets(ppm_context *context, seek_state *state, ppmi_t
         ppmi_cluster_found(context, seek->world->scene, state->narrow.found, state->narrow.count,
                            glossy, MAX_GLOSSY, &glossy_count);
     if (status == PPM_STATUS_OK) {
-        const uint32_t level_count = find_levels(seek, &state->gathered, scratch, levels);
+        const uint32_t level_count = find_levels(state, scratch, levels);
         *out_count = share(glossy, glossy_count, levels, level_count, out_targets, out_shares);
     }
     ppmi_free(context, scratch);
@@ -218,8 +244,9 @@ ppm_status ppmi_seek_targets(ppm_context *context, const ppmi_seek *seek,
     seek_state state = {.seek = seek};
     state.narrow.found = ppmi_alloc(context, MAX_FOUND, sizeof *state.narrow.found);
     state.gathered.found = ppmi_alloc(context, MAX_FOUND, sizeof *state.gathered.found);
+    state.lighting.found = ppmi_alloc(context, MAX_FOUND, sizeof *state.lighting.found);
     ppm_status status = PPM_STATUS_OK;
-    if (state.narrow.found && state.gathered.found) {
+    if (state.narrow.found && state.gathered.found && state.lighting.found) {
         ppmi_walker walker = {.world = seek->world};
         for (uint32_t i = 0; i < SIDE * SIDE; i++)
             look(&state, &walker, i);
@@ -230,5 +257,6 @@ ppm_status ppmi_seek_targets(ppm_context *context, const ppmi_seek *seek,
     }
     ppmi_free(context, state.narrow.found);
     ppmi_free(context, state.gathered.found);
+    ppmi_free(context, state.lighting.found);
     return status;
 }
