@@ -2,13 +2,11 @@
  * edge are smooth across it if their normals differ by no more than the angle. Around a vertex, the
  * corners that such edges connect get one normal, the mean of their faces weighted by angle
  * (obj_normals.c). Vertices at the same place count as one, since many programs write each face
- * with its own.
- *
- * Corners are connected by union-find (Tarjan 1975, with path halving), which takes a time in
- * proportion to the edges, however many faces meet at a vertex. */
+ * with its own. */
 #include <math.h>
 #include <string.h>
 
+#include "base/union_find.h"
 #include "obj/obj_reader.h"
 
 /* A face without a normal at some corner. */
@@ -33,23 +31,6 @@ typedef struct owner {
     size_t side;
     uint32_t corners[2];
 } owner;
-
-static uint32_t find_root(uint32_t *parents, uint32_t i)
-{
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-static void connect(uint32_t *parents, uint32_t a, uint32_t b)
-{
-    a = find_root(parents, a);
-    b = find_root(parents, b);
-    if (a < b) parents[b] = a;
-    if (b < a) parents[a] = b;
-}
 
 /* The number of a corner's place. -0 is 0. */
 static bool find_place(crease *c, size_t corner, uint32_t *out)
@@ -88,8 +69,8 @@ static bool add_edge(crease *c, uint32_t a, uint32_t b)
         return true;
     }
     if (is_smooth(c, owners[index].side, mine.side)) {
-        connect(c->parents, owners[index].corners[0], mine.corners[0]);
-        connect(c->parents, owners[index].corners[1], mine.corners[1]);
+        ppmi_union_find_join(c->parents, owners[index].corners[0], mine.corners[0]);
+        ppmi_union_find_join(c->parents, owners[index].corners[1], mine.corners[1]);
     }
     owners[index] = mine;
     return true;
@@ -149,7 +130,7 @@ static bool sum_normals(crease *c)
     for (size_t i = 0; ok && i < c->sides.count; ++i) {
         for (uint32_t k = 0; k < sides[i].count; ++k) {
             const size_t corner = sides[i].first_corner + k;
-            const uint32_t root = find_root(c->parents, (uint32_t)corner);
+            const uint32_t root = ppmi_union_find_root(c->parents, (uint32_t)corner);
             if (numbers[root] == 0) numbers[root] = (uint32_t)++count;
             const double weight =
                 ppmi_obj_corner_angle(r, corners + sides[i].first_corner, sides[i].count, k);

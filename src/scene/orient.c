@@ -8,6 +8,7 @@
  * between two triangles or meets both. */
 #include "scene/orient.h"
 
+#include "base/union_find.h"
 #include "math/sampler.h"
 
 #define NONE UINT32_MAX
@@ -97,24 +98,6 @@ static void weld(orientation *o, uint32_t *table, uint32_t mask)
     }
 }
 
-static uint32_t find(uint32_t *parent, uint32_t v)
-{
-    while (parent[v] != v) {
-        parent[v] = parent[parent[v]];
-        v = parent[v];
-    }
-    return v;
-}
-
-/* The lower root stays: numbers of shells do not depend on the order. */
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = find(parent, a);
-    b = find(parent, b);
-    if (a < b) parent[b] = a;
-    if (b < a) parent[a] = b;
-}
-
 static void list_faces(orientation *o)
 {
     uint32_t first = 0, count = 0;
@@ -125,8 +108,8 @@ static void list_faces(orientation *o)
             face *added = &o->faces[count++];
             for (int j = 0; j < 3; j++)
                 added->v[j] = o->welded[first + indices[3 * i + (size_t)j]];
-            join(o->parent, added->v[0], added->v[1]);
-            join(o->parent, added->v[0], added->v[2]);
+            ppmi_union_find_join(o->parent, added->v[0], added->v[1]);
+            ppmi_union_find_join(o->parent, added->v[0], added->v[2]);
         }
         if (o->mesh->primitives[k].kind == PPM_PRIMITIVE_TRIANGLES) {
             first += o->mesh->primitives[k].vertex_count;
@@ -138,7 +121,7 @@ static void list_faces(orientation *o)
 static void number_shells(orientation *o, uint32_t *numbers)
 {
     for (uint32_t i = 0; i < o->face_count; i++) {
-        uint32_t *number = &numbers[find(o->parent, o->faces[i].v[0])];
+        uint32_t *number = &numbers[ppmi_union_find_root(o->parent, o->faces[i].v[0])];
         if (*number == NONE) *number = o->shell_count++;
         o->faces[i].shell = *number;
     }

@@ -7,6 +7,8 @@
 
 #include <cmocka.h>
 
+#include "support/scenes.h"
+
 const render_method photon_methods[PHOTON_METHODS] = {
     {"sppm", PPM_INTEGRATOR_SPPM, PPM_SCHEDULE_PROGRESSIVE, PPM_DIRECT_SAMPLE, false},
     {"sppm, memoryless", PPM_INTEGRATOR_SPPM, PPM_SCHEDULE_MEMORYLESS, PPM_DIRECT_SAMPLE, false},
@@ -28,6 +30,15 @@ ppm_render_options method_options(const render_method *method, uint32_t width,
     options.direct = method->direct;
     if (method->has_epochs) options.photons_per_epoch = 2 * photons_per_pass;
     return options;
+}
+
+void add_lit_box(ppm_scene *scene, ppmi_vec3 reflectance, ppmi_vec3 target)
+{
+    const ppm_material_id wall = material_lambert_rgb(scene, reflectance);
+    shape_place(scene, shape_box(scene, wall, vec3_splat(-1), vec3_splat(1), 1, true));
+    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
+             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
+    camera_perspective(scene, vec3(0, 0, 0.95f), target, 1.2f);
 }
 
 /* Adds each block's mean to its own statistics. */

@@ -2,6 +2,7 @@
 #ifndef TEST_STATISTICAL_METHODS_H
 #define TEST_STATISTICAL_METHODS_H
 
+#include "math/vec.h"
 #include "support/renders.h"
 
 typedef struct render_method {
@@ -41,6 +42,10 @@ typedef struct method_comparison {
     uint32_t left_out;    /* mask of photon_methods */
     float shutter_frames; /* for which it is open; 0: a moment */
 } method_comparison;
+
+/* A closed box of 2 m around the origin with a lamp under its ceiling, looked at from its front
+ * wall towards target. */
+void add_lit_box(ppm_scene *scene, ppmi_vec3 reflectance, ppmi_vec3 target);
 
 /* Means of METHOD_BLOCKS blocks in three channels. */
 void method_blocks(ppm_scene *scene, const ppm_render_options *options, uint32_t passes,

@@ -27,14 +27,6 @@ static int close_scene(void **state)
     return 0;
 }
 
-static ppm_material_desc coloured(float r, float g, float b)
-{
-    ppm_material_desc desc;
-    ppm_material_desc_init(&desc);
-    vec3_store(desc.base_color, vec3(r, g, b));
-    return desc;
-}
-
 /* A pattern of texels: colour, with alpha that is 1 in half of them, or normals that lean a little.
  */
 static ppm_image_id pattern(int32_t role)
@@ -162,7 +154,7 @@ static void a_box_of_layered_things_in_motion_under_lamps(void **state)
     add_lamp(PPM_LIGHT_POINT, vec3(-0.5f, 0.6f, 0.0f), 1.5f, add_profile());
     add_lamp(PPM_LIGHT_RECTANGLE, vec3(0.4f, 0.8f, -0.2f), 8.0f, 0);
     add_lamp(PPM_LIGHT_DISK, vec3(0.0f, 0.7f, -0.7f), 8.0f, 0);
-    ppm_material_desc velvet = coloured(0.6f, 0.3f, 0.4f);
+    ppm_material_desc velvet = material_desc_rgb(vec3(0.6f, 0.3f, 0.4f), 0.0f, 0.5f);
     velvet.sheen_color[0] = velvet.sheen_color[1] = 0.7f;
     velvet.sheen_roughness = 0.6f;
     velvet.base_color_texture.image = color;
@@ -172,7 +164,7 @@ static void a_box_of_layered_things_in_motion_under_lamps(void **state)
     velvet.alpha_mode = PPM_ALPHA_BLEND;
     add_round(PPM_PRIMITIVE_LINES, &velvet, vec3(-0.5f, -0.5f, -0.5f), vec3(-0.3f, -0.4f, -0.5f));
     add_sheet(&velvet, vec3(0.3f, -0.4f, -0.6f), vec3(0.4f, -0.3f, -0.6f));
-    ppm_material_desc leaf = coloured(0.4f, 0.7f, 0.3f);
+    ppm_material_desc leaf = material_desc_rgb(vec3(0.4f, 0.7f, 0.3f), 0.0f, 0.5f);
     leaf.diffuse_transmission = 0.6f;
     leaf.transmission_kind = PPM_TRANSMISSION_THIN;
     leaf.anisotropy = 0.5f;
@@ -188,7 +180,7 @@ static void round_leaves_that_shine_to_both_sides(void **state)
 {
     (void)state;
     add_box();
-    ppm_material_desc leaf = coloured(0.4f, 0.7f, 0.3f);
+    ppm_material_desc leaf = material_desc_rgb(vec3(0.4f, 0.7f, 0.3f), 0.0f, 0.5f);
     leaf.diffuse_transmission = 0.6f;
     leaf.transmission_kind = PPM_TRANSMISSION_THIN;
     leaf.roughness = 0.7f;

@@ -26,24 +26,13 @@ static int close_scene(void **state)
     return 0;
 }
 
-/* A closed box with coloured walls and a lamp under its ceiling. */
-static void add_lit_box(void)
-{
-    ppm_scene *scene = test.scene;
-    const ppm_material_id grey = material_lambert_rgb(scene, vec3(0.6f, 0.5f, 0.4f));
-    shape_place(scene, shape_box(scene, grey, vec3_splat(-1), vec3_splat(1), 1, true));
-    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
-             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
-    camera_perspective(scene, vec3(0, 0, 0.95f), vec3(0, -0.1f, -1), 1.2f);
-}
-
 /* Disks and balls of 5 cm lose photons at the walls: within a radius of an edge a quarter, with 2 m
  * of edges a square metre at most 2.5 % of a block's light; in the fog less, on a way of a metre.
  */
 static void a_foggy_box_with_a_glass_ball(void **state)
 {
     (void)state;
-    add_lit_box();
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
     ppm_scene *scene = test.scene;
     scene_fog(scene, vec3(0.2f, 0.3f, 0.4f), vec3(0.1f, 0.05f, 0.0f), 0.5f);
     shape_place_at(scene, shape_sphere(scene, material_glass(scene, 1.5f, 0.0f), 0.4f, 32, true),

@@ -12,10 +12,15 @@
 
 static test_scene test;
 
+/* Balls in boxes are cut flat: a photon along a facet whose normals are bent away from it counts up
+ * to a hundred times, and one such photon is a picture's noise. */
+static bool is_smooth;
+
 static int open_scene(void **state)
 {
     (void)state;
     scene_open(&test);
+    is_smooth = false;
     return 0;
 }
 
@@ -24,32 +29,6 @@ static int close_scene(void **state)
     (void)state;
     scene_close(&test);
     return 0;
-}
-
-static ppm_material_desc coloured(float r, float g, float b, float metallic, float roughness)
-{
-    ppm_material_desc desc;
-    ppm_material_desc_init(&desc);
-    vec3_store(desc.base_color, vec3(r, g, b));
-    desc.metallic = metallic;
-    desc.roughness = roughness;
-    return desc;
-}
-
-/* Balls in boxes are cut flat: a photon along a facet whose normals are bent away from it counts up
- * to a hundred times, and one such photon is a picture's noise. */
-static bool is_smooth;
-
-/* A closed box with coloured walls and a lamp under its ceiling. */
-static void add_lit_box(void)
-{
-    is_smooth = false;
-    ppm_scene *scene = test.scene;
-    const ppm_material_id grey = material_lambert_rgb(scene, vec3(0.6f, 0.5f, 0.4f));
-    shape_place(scene, shape_box(scene, grey, vec3_splat(-1), vec3_splat(1), 1, true));
-    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
-             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
-    camera_perspective(scene, vec3(0, 0, 0.95f), vec3(0, -0.1f, -1), 1.2f);
 }
 
 static void place(const ppm_material_desc *desc, float radius, float x, float y, float z)
@@ -75,25 +54,25 @@ static const method_comparison how = {.width = 60,
 static void a_box_of_layered_things(void **state)
 {
     (void)state;
-    add_lit_box();
-    ppm_material_desc ceramic = coloured(0.7f, 0.2f, 0.1f, 0.0f, 0.5f);
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
+    ppm_material_desc ceramic = material_desc_rgb(vec3(0.7f, 0.2f, 0.1f), 0.0f, 0.5f);
     ceramic.clearcoat = 1.0f;
     place(&ceramic, 0.3f, -0.5f, -0.7f, -0.2f);
-    ppm_material_desc velvet = coloured(0.2f, 0.1f, 0.4f, 0.0f, 0.8f);
+    ppm_material_desc velvet = material_desc_rgb(vec3(0.2f, 0.1f, 0.4f), 0.0f, 0.8f);
     for (int i = 0; i < 3; i++)
         velvet.sheen_color[i] = 0.8f;
     velvet.sheen_roughness = 0.5f;
     velvet.clearcoat = 0.5f;
     velvet.clearcoat_roughness = 0.6f;
     place(&velvet, 0.3f, 0.4f, -0.7f, -0.3f);
-    ppm_material_desc film = coloured(0.1f, 0.1f, 0.1f, 0.0f, 0.5f);
+    ppm_material_desc film = material_desc_rgb(vec3(0.1f, 0.1f, 0.1f), 0.0f, 0.5f);
     film.iridescence = 1.0f;
     film.iridescence_ior = 1.8f;
     place(&film, 0.25f, -0.5f, 0.2f, -0.4f);
-    ppm_material_desc reflector = coloured(0.9f, 0.8f, 0.7f, 1.0f, 0.6f);
+    ppm_material_desc reflector = material_desc_rgb(vec3(0.9f, 0.8f, 0.7f), 1.0f, 0.6f);
     reflector.retroreflection = 0.7f;
     place(&reflector, 0.25f, 0.5f, 0.2f, -0.4f);
-    ppm_material_desc brushed = coloured(0.8f, 0.8f, 0.9f, 1.0f, 0.6f);
+    ppm_material_desc brushed = material_desc_rgb(vec3(0.8f, 0.8f, 0.9f), 1.0f, 0.6f);
     brushed.anisotropy = 0.8f;
     add_quad(test.scene, material_add(test.scene, &brushed), vec3(-0.9f, -0.95f, -0.95f),
              vec3(1.8f, 0, 0), vec3(0, 1.8f, 0.1f));
@@ -104,8 +83,8 @@ static void a_box_of_layered_things(void **state)
 static void a_leaf_before_the_lamp(void **state)
 {
     (void)state;
-    add_lit_box();
-    ppm_material_desc leaf = coloured(0.3f, 0.6f, 0.2f, 0.0f, 0.6f);
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
+    ppm_material_desc leaf = material_desc_rgb(vec3(0.3f, 0.6f, 0.2f), 0.0f, 0.6f);
     leaf.diffuse_transmission = 0.6f;
     leaf.diffuse_transmission_color[0] = 0.5f;
     add_quad(test.scene, material_add(test.scene, &leaf), vec3(-0.7f, -0.5f, -0.6f),
@@ -117,8 +96,8 @@ static void a_leaf_before_the_lamp(void **state)
 static void a_ball_of_wax(void **state)
 {
     (void)state;
-    add_lit_box();
-    ppm_material_desc wax = coloured(0.8f, 0.7f, 0.6f, 0.0f, 0.5f);
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
+    ppm_material_desc wax = material_desc_rgb(vec3(0.8f, 0.7f, 0.6f), 0.0f, 0.5f);
     wax.diffuse_transmission = 0.8f;
     wax.attenuation_distance_m = 0.3f;
     for (int i = 0; i < 3; i++) {
@@ -138,7 +117,7 @@ static void white_layered_balls_vanish_before_a_white_sky(void **state)
     (void)state;
     ppm_material_desc kinds[4];
     for (int i = 0; i < 4; i++)
-        kinds[i] = coloured(1, 1, 1, 0, 0.5f);
+        kinds[i] = material_desc_rgb(vec3(1, 1, 1), 0, 0.5f);
     kinds[0].clearcoat = 1.0f;
     kinds[1].sheen_color[0] = kinds[1].sheen_color[1] = kinds[1].sheen_color[2] = 1.0f;
     kinds[1].sheen_roughness = 0.6f;

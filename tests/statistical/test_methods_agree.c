@@ -27,27 +27,6 @@ static int close_scene(void **state)
     return 0;
 }
 
-static ppm_material_desc coloured(float r, float g, float b, float metallic, float roughness)
-{
-    ppm_material_desc desc;
-    ppm_material_desc_init(&desc);
-    vec3_store(desc.base_color, vec3(r, g, b));
-    desc.metallic = metallic;
-    desc.roughness = roughness;
-    return desc;
-}
-
-/* A closed box with coloured walls and a lamp under its ceiling. */
-static void add_lit_box(void)
-{
-    ppm_scene *scene = test.scene;
-    const ppm_material_id grey = material_lambert_rgb(scene, vec3(0.6f, 0.5f, 0.4f));
-    shape_place(scene, shape_box(scene, grey, vec3_splat(-1), vec3_splat(1), 1, true));
-    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
-             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
-    camera_perspective(scene, vec3(0, 0, 0.95f), vec3(0, -0.1f, -1), 1.2f);
-}
-
 /* Within a radius of an edge a disk reaches beyond its wall, and loses there on average a quarter
  * of its photons. A block has up to 2 m of edges a square metre: with radii of 2 cm at most 2 *
  * 0.02 / 4 = 1 % of its light. */
@@ -56,10 +35,10 @@ static const double edge_bias = 0.01;
 static void a_box_of_plastic_and_rough_metal(void **state)
 {
     (void)state;
-    add_lit_box();
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
     ppm_scene *scene = test.scene;
-    const ppm_material_desc plastic = coloured(0.2f, 0.5f, 0.7f, 0.0f, 0.35f);
-    const ppm_material_desc metal = coloured(0.9f, 0.7f, 0.4f, 1.0f, 0.7f);
+    const ppm_material_desc plastic = material_desc_rgb(vec3(0.2f, 0.5f, 0.7f), 0.0f, 0.35f);
+    const ppm_material_desc metal = material_desc_rgb(vec3(0.9f, 0.7f, 0.4f), 1.0f, 0.7f);
     shape_place(scene, shape_box(scene, material_add(scene, &plastic), vec3(-0.6f, -1, -0.7f),
                                  vec3(0.0f, -0.2f, -0.1f), 1, false));
     shape_place_at(scene, shape_sphere(scene, material_add(scene, &metal), 0.35f, 32, true),
@@ -85,8 +64,8 @@ static void things_under_a_sky(void **state)
     light_environment(scene, vec3_splat(1.0f), image_rgb(scene, 2, 2, pixels), 0.4f);
     add_quad(scene, material_lambert_rgb(scene, vec3(0.7f, 0.6f, 0.5f)), vec3(-2, 0, -2),
              vec3(0, 0, 4), vec3(4, 0, 0));
-    const ppm_material_desc plastic = coloured(0.7f, 0.2f, 0.2f, 0.0f, 0.2f);
-    const ppm_material_desc metal = coloured(0.9f, 0.7f, 0.4f, 1.0f, 0.4f);
+    const ppm_material_desc plastic = material_desc_rgb(vec3(0.7f, 0.2f, 0.2f), 0.0f, 0.2f);
+    const ppm_material_desc metal = material_desc_rgb(vec3(0.9f, 0.7f, 0.4f), 1.0f, 0.4f);
     shape_place_at(scene, shape_sphere(scene, material_add(scene, &plastic), 0.5f, 32, true),
                    vec3(-0.6f, 0.5f, 0));
     shape_place_at(scene, shape_sphere(scene, material_add(scene, &metal), 0.5f, 32, true),
@@ -107,7 +86,7 @@ static void things_under_a_sky(void **state)
 static void a_box_of_glass(void **state)
 {
     (void)state;
-    add_lit_box();
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.4f), vec3(0, -0.1f, -1));
     ppm_scene *scene = test.scene;
     shape_place(scene, shape_box(scene, material_glass(scene, 1.5f, 0.5f),
                                  vec3(-0.7f, -0.9f, -0.7f), vec3(-0.1f, -0.1f, -0.1f), 1, false));

@@ -30,27 +30,6 @@ static int close_scene(void **state)
 /* Left are sppm, and ppm with photons for direct light. */
 enum { LEFT_OUT = METHODS_OF_OTHER_RADII | 1 << 2 | 1 << 5 };
 
-static ppm_material_desc coloured(float r, float g, float b, float metallic, float roughness)
-{
-    ppm_material_desc desc;
-    ppm_material_desc_init(&desc);
-    vec3_store(desc.base_color, vec3(r, g, b));
-    desc.metallic = metallic;
-    desc.roughness = roughness;
-    return desc;
-}
-
-/* A closed box with a lamp under its ceiling. */
-static void add_lit_box(void)
-{
-    ppm_scene *scene = test.scene;
-    const ppm_material_id grey = material_lambert_rgb(scene, vec3(0.6f, 0.5f, 0.7f));
-    shape_place(scene, shape_box(scene, grey, vec3_splat(-1), vec3_splat(1), 1, true));
-    add_quad(scene, material_emitter(scene, 10.0f, 0.0f, false), vec3(-0.5f, 0.99f, -0.5f),
-             vec3(1.0f, 0, 0), vec3(0, 0, 1.0f));
-    camera_perspective(scene, vec3(0, 0, 0.95f), vec3(0, -0.2f, -1), 1.2f);
-}
-
 /* A quad whose normals lean over by an angle, as by a normal map of one colour. */
 static void add_leaning_quad(ppm_material_id material, ppmi_vec3 origin, ppmi_vec3 edge_u,
                              ppmi_vec3 edge_v, float angle_rad)
@@ -92,7 +71,7 @@ static void agree_in_box(uint64_t photons, double resolution)
 /* Floor and walls of the box are covered by leaning quads. */
 static void lean_everywhere(const ppm_material_desc *desc, float angle_rad)
 {
-    add_lit_box();
+    add_lit_box(test.scene, vec3(0.6f, 0.5f, 0.7f), vec3(0, -0.2f, -1));
     const ppm_material_id material = material_add(test.scene, desc);
     const float a = 0.98f, b = 2.0f * a;
     add_leaning_quad(material, vec3(-a, -a, a), vec3(b, 0, 0), vec3(0, 0, -b), angle_rad);
@@ -103,7 +82,7 @@ static void lean_everywhere(const ppm_material_desc *desc, float angle_rad)
 static void matte_walls_lean_by_12_degrees(void **state)
 {
     (void)state;
-    const ppm_material_desc desc = coloured(0.8f, 0.6f, 0.7f, 0.0f, 1.0f);
+    const ppm_material_desc desc = material_desc_rgb(vec3(0.8f, 0.6f, 0.7f), 0.0f, 1.0f);
     lean_everywhere(&desc, 0.21f);
     agree_in_box(20000, 0.03);
 }
@@ -111,7 +90,7 @@ static void matte_walls_lean_by_12_degrees(void **state)
 static void matte_walls_lean_by_45_degrees(void **state)
 {
     (void)state;
-    ppm_material_desc desc = coloured(0.8f, 0.6f, 0.7f, 0.0f, 1.0f);
+    ppm_material_desc desc = material_desc_rgb(vec3(0.8f, 0.6f, 0.7f), 0.0f, 1.0f);
     desc.specular = 0.0f;
     lean_everywhere(&desc, 0.785f);
     agree_in_box(20000, 0.03);
@@ -120,7 +99,7 @@ static void matte_walls_lean_by_45_degrees(void **state)
 static void rough_metal_leans_by_30_degrees(void **state)
 {
     (void)state;
-    const ppm_material_desc desc = coloured(0.9f, 0.7f, 0.5f, 1.0f, 0.6f);
+    const ppm_material_desc desc = material_desc_rgb(vec3(0.9f, 0.7f, 0.5f), 1.0f, 0.6f);
     lean_everywhere(&desc, 0.52f);
     agree_in_box(40000, 0.05);
 }

@@ -31,6 +31,16 @@ void scene_close(test_scene *test)
 
 /* ---- materials ------------------------------------------------------------------------------- */
 
+ppm_material_desc material_desc_rgb(ppmi_vec3 base_color, float metallic, float roughness)
+{
+    ppm_material_desc desc;
+    ppm_material_desc_init(&desc);
+    vec3_store(desc.base_color, base_color);
+    desc.metallic = metallic;
+    desc.roughness = roughness;
+    return desc;
+}
+
 ppm_material_id material_add(ppm_scene *scene, const ppm_material_desc *desc)
 {
     ppm_material_id id = 0;

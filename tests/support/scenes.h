@@ -24,6 +24,8 @@ ppm_material_id material_emitter(ppm_scene *scene, float radiance, float reflect
                                  bool double_sided);
 /* A white solid. */
 ppm_material_id material_glass(ppm_scene *scene, float ior, float roughness);
+/* As a new material, but for these. */
+ppm_material_desc material_desc_rgb(ppmi_vec3 base_color, float metallic, float roughness);
 ppm_material_id material_add(ppm_scene *scene, const ppm_material_desc *desc);
 
 /* Looks from eye to target; angle is the full vertical one. */
