@@ -89,7 +89,8 @@ static const struct {
     {"KHR_physics_rigid_bodies", PPM_FEATURE_APPROXIMATED,
      "nothing is simulated: bodies are where the file places them"},
     {"KHR_texture_basisu", PPM_FEATURE_APPROXIMATED,
-     "KTX2 files of plain and BC formats are read; of Basis Universal the fallback image, if any"},
+     "KTX2 files of plain and BC formats and of ETC1S are read; of UASTC the fallback image, if "
+     "any"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
     {"KHR_xmp", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet, into the EXR's metadata"},

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { HEADER = 80, LEVEL = 24, MODEL_AT = 12, TRANSFER_AT = 14, FLAGS_AT = 15 };
-enum { BASIS_LZ = 1, TRANSFER_SRGB = 2, ALPHA_PREMULTIPLIED = 1 };
+enum { HEADER = 80, LEVEL = 24, MODEL_AT = 12, TRANSFER_AT = 14, FLAGS_AT = 15, CHANNEL_AT = 31 };
+enum { BASIS_LZ = 1, MOST_LEVELS = 32, TRANSFER_SRGB = 2, ALPHA_PREMULTIPLIED = 1 };
 
 static const unsigned char mark[12] = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                        '0',  0xbb, '\r', '\n', 0x1a, '\n'};
@@ -24,7 +24,7 @@ static uint64_t u64(const unsigned char *p)
 /* The members of the header, and of the index its first entry. */
 typedef struct header {
     uint32_t format, width, height, depth, layers, faces, levels, scheme;
-    uint64_t descriptor, descriptor_length, pairs, pairs_length;
+    uint64_t descriptor, descriptor_length, pairs, pairs_length, global, global_length;
     uint64_t level, level_length, level_unpacked;
 } header;
 
@@ -43,6 +43,8 @@ static bool read_header(const unsigned char *bytes, size_t count, header *out)
                     .descriptor_length = u32(bytes + 52),
                     .pairs = u32(bytes + 56),
                     .pairs_length = u32(bytes + 60),
+                    .global = u64(bytes + 64),
+                    .global_length = u64(bytes + 72),
                     .level = u64(bytes + HEADER),
                     .level_length = u64(bytes + HEADER + 8),
                     .level_unpacked = u64(bytes + HEADER + 16)};
@@ -157,6 +159,41 @@ static bool is_likely(uint64_t packed, uint64_t unpacked)
     return unpacked <= free_bytes || unpacked / bound <= packed;
 }
 
+/* Slices of any length, and what they have in common. */
+static ppm_status find_etc1s(const header *h, const unsigned char *bytes, size_t count,
+                             ppmi_ktx2 *out)
+{
+    const uint64_t pictures = (uint64_t)out->layers * out->faces;
+    const uint64_t images = pictures * (h->levels > 0 ? h->levels : 1);
+    if (h->scheme != BASIS_LZ) {
+        return fail(out, PPM_STATUS_INPUT_INVALID, "its ETC1S is not packed by BasisLZ");
+    }
+    if (!is_inside(h->global, h->global_length, count)) {
+        return fail(out, PPM_STATUS_INPUT_INVALID, "its global data is not within the file");
+    }
+    if (h->levels > MOST_LEVELS || images > UINT32_MAX) {
+        return fail(out, PPM_STATUS_INPUT_INVALID, "it has more levels than its size allows");
+    }
+    if (!is_likely(h->level_length, 4 * (uint64_t)h->width * h->height * pictures)) {
+        return fail(out, PPM_STATUS_INPUT_INVALID, "it claims more pixels than it can hold");
+    }
+    out->global = bytes + h->global;
+    out->global_bytes = (size_t)h->global_length;
+    out->images = (uint32_t)images;
+    return PPM_STATUS_OK;
+}
+
+/* Where the second slice is not alpha: how many channels there are (Khronos Data Format 1.3, "ETC1S
+ * model": RRR, and GGG beside it). */
+static void take_channels(const header *h, const unsigned char *bytes, size_t count,
+                          ppmi_ktx2_format *format)
+{
+    enum { RED = 3, GREEN = 4, SAMPLE = 16, KIND = 15 };
+    if ((described(h, bytes, count, CHANNEL_AT) & KIND) != RED) return;
+    const uint32_t second = described(h, bytes, count, CHANNEL_AT + SAMPLE) & KIND;
+    format->channels = second == GREEN ? 2 : 1;
+}
+
 static ppm_status find_level(ppm_context *context, const header *h, const unsigned char *bytes,
                              size_t count, ppmi_ktx2 *out)
 {
@@ -171,13 +208,15 @@ static ppm_status find_level(ppm_context *context, const header *h, const unsign
                  count);
         return PPM_STATUS_INPUT_INVALID;
     }
+    out->level = bytes + h->level;
+    out->level_bytes = (size_t)h->level_length;
+    if (out->format.kind == PPMI_KTX2_ETC1S) return find_etc1s(h, bytes, count, out);
     if (claimed != size) {
         snprintf(out->reason, sizeof out->reason,
                  "%u x %u pixels of its format need %llu bytes, and it has %llu", out->width,
                  out->height, (unsigned long long)size, (unsigned long long)claimed);
         return PPM_STATUS_INPUT_INVALID;
     }
-    out->level = bytes + h->level;
     if (h->scheme == 0) return PPM_STATUS_OK;
     if (!is_likely(h->level_length, size)) {
         return fail(out, PPM_STATUS_INPUT_INVALID, "it claims more pixels than it can hold");
@@ -201,9 +240,9 @@ const char *ppmi_ktx2_unread_encoding(const unsigned char *bytes, size_t count)
     header h;
     ppmi_ktx2_format format;
     if (!ppmi_ktx2_is(bytes, count) || !read_header(bytes, count, &h)) return NULL;
-    if (h.scheme == BASIS_LZ) return "Basis Universal (ETC1S)";
-    if (ppmi_ktx2_find_format(h.format, &format)) return NULL;
-    const char *name = ppmi_ktx2_format_name(h.format, described(&h, bytes, count, MODEL_AT));
+    const uint32_t model = described(&h, bytes, count, MODEL_AT);
+    if (ppmi_ktx2_find_format(h.format, model, &format)) return NULL;
+    const char *name = ppmi_ktx2_format_name(h.format, model);
     return name ? name : "of a format without a name here";
 }
 
@@ -217,7 +256,8 @@ ppm_status ppmi_ktx2_open(ppm_context *context, const unsigned char *bytes, size
         return fail(out, PPM_STATUS_INPUT_INVALID, "it ends within its header");
     }
     const char *unread = ppmi_ktx2_unread_encoding(bytes, count);
-    if (unread || !ppmi_ktx2_find_format(h.format, &out->format)) {
+    const uint32_t model = described(&h, bytes, count, MODEL_AT);
+    if (unread || !ppmi_ktx2_find_format(h.format, model, &out->format)) {
         snprintf(out->reason, sizeof out->reason,
                  "a KTX2 file that is %s cannot be read (VkFormat "
                  "%u)",
@@ -228,6 +268,7 @@ ppm_status ppmi_ktx2_open(ppm_context *context, const unsigned char *bytes, size
         return fail(out, PPM_STATUS_INPUT_UNSUPPORTED, "its colours are multiplied by alpha");
     }
     if (described(&h, bytes, count, TRANSFER_AT) == TRANSFER_SRGB) out->format.is_srgb = true;
+    if (out->format.kind == PPMI_KTX2_ETC1S) take_channels(&h, bytes, count, &out->format);
     read_pairs(&h, bytes, count, out);
     const ppm_status status = check_shape(&h, out);
     return status == PPM_STATUS_OK ? find_level(context, &h, bytes, count, out) : status;

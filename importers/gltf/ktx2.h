@@ -1,6 +1,6 @@
 /* KTX 2.0 files: a container of pictures as graphics cards take them (Khronos, "KTX File Format
  * Specification", version 2.0). What is read are the pictures of the largest level, of formats that
- * hold plain values, or blocks that a DDS file may hold too. Basis Universal is recognised only. */
+ * hold plain values, or blocks that a DDS file may hold too, and ETC1S of Basis Universal. */
 #ifndef PPMI_GLTF_KTX2_H
 #define PPMI_GLTF_KTX2_H
 
@@ -20,7 +20,8 @@ typedef enum ppmi_ktx2_kind {
     PPMI_KTX2_B10G11R11,
     PPMI_KTX2_E5B9G9R9,
     PPMI_KTX2_BLOCKS, /* 4 x 4 texels together */
-    PPMI_KTX2_ASTC    /* the same, of other sizes */
+    PPMI_KTX2_ASTC,   /* the same, of other sizes */
+    PPMI_KTX2_ETC1S   /* Basis Universal in BasisLZ: of no fixed size */
 } ppmi_ktx2_kind;
 
 /* A row of the table of formats. */
@@ -41,7 +42,11 @@ typedef struct ppmi_ktx2 {
     uint32_t width, height;
     uint32_t layers, faces;     /* pictures in the level: layers * faces, layer by layer */
     const unsigned char *level; /* the level's pictures */
-    size_t picture_bytes;
+    size_t picture_bytes;       /* 0 of ETC1S */
+    size_t level_bytes;
+    const unsigned char *global; /* of ETC1S: the file's global data, with so many descriptions */
+    size_t global_bytes;         /* of pictures */
+    uint32_t images;
     unsigned char *owned;          /* level, if it had to be unpacked */
     char swizzle[4];               /* which of r g b a 0 1 each channel is */
     bool is_flipped[2];            /* x runs to the left, y up */
@@ -77,8 +82,9 @@ ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t lay
 ppm_status ppmi_ktx2_unpack(uint32_t scheme, const unsigned char *bytes, size_t count,
                             unsigned char *out, size_t out_count, const char **reason);
 
-/* ktx2_format.c: false where the format is not read. */
-bool ppmi_ktx2_find_format(uint32_t vulkan, ppmi_ktx2_format *out);
+/* ktx2_format.c: a format by VkFormat and, where that is 0, by the colour model of the file's
+ * descriptor. False where it is not read. */
+bool ppmi_ktx2_find_format(uint32_t vulkan, uint32_t color_model, ppmi_ktx2_format *out);
 /* The name of a format that is not read, by VkFormat and the colour model of the file's descriptor;
  * NULL for one without a name here. */
 const char *ppmi_ktx2_format_name(uint32_t vulkan, uint32_t color_model);

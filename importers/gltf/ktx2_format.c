@@ -11,6 +11,9 @@
 #define DXT5 LETTERS('D', 'X', 'T', '5')
 enum { DXGI_BC6H_UF16 = 95, DXGI_BC6H_SF16 = 96, DXGI_BC7 = 98 };
 
+/* KHR_DF_MODEL_ of the Khronos Data Format specification. */
+enum { MODEL_ETC1S = 163, MODEL_UASTC = 166, MODEL_UASTC_HDR = 167 };
+
 /* BC4 and BC5 are not here: one or two channels that OpenImageIO takes for grey and no alpha. */
 static const ppmi_ktx2_format formats[] = {
     {9, PPMI_KTX2_U8, 1, 1, false, false, 0, {0, 0}},
@@ -85,8 +88,12 @@ static bool find_astc(uint32_t vulkan, ppmi_ktx2_format *out)
     return true;
 }
 
-bool ppmi_ktx2_find_format(uint32_t vulkan, ppmi_ktx2_format *out)
+bool ppmi_ktx2_find_format(uint32_t vulkan, uint32_t color_model, ppmi_ktx2_format *out)
 {
+    if (vulkan == 0 && color_model == MODEL_ETC1S) {
+        *out = (ppmi_ktx2_format){.kind = PPMI_KTX2_ETC1S, .channels = 4};
+        return true;
+    }
     if (find_astc(vulkan, out)) return true;
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
         if (formats[i].vulkan != vulkan) continue;
@@ -98,10 +105,8 @@ bool ppmi_ktx2_find_format(uint32_t vulkan, ppmi_ktx2_format *out)
 
 const char *ppmi_ktx2_format_name(uint32_t vulkan, uint32_t color_model)
 {
-    /* KHR_DF_MODEL_ETC1S, _UASTC, _UASTC_HDR_4x4 of the Khronos Data Format specification */
-    if (vulkan == 0 && color_model == 163) return "Basis Universal (ETC1S)";
-    if (vulkan == 0 && color_model == 166) return "Basis Universal (UASTC)";
-    if (vulkan == 0 && color_model == 167) return "Basis Universal (UASTC HDR)";
+    if (vulkan == 0 && color_model == MODEL_UASTC) return "Basis Universal (UASTC)";
+    if (vulkan == 0 && color_model == MODEL_UASTC_HDR) return "Basis Universal (UASTC HDR)";
     for (size_t i = 0; i < sizeof unread / sizeof unread[0]; ++i) {
         if (vulkan >= unread[i].first && vulkan <= unread[i].last) return unread[i].name;
     }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/basis_etc1s.h"
 #include "gltf/ktx2.h"
 #include "gltf/ktx2_astc.h"
 
@@ -69,6 +70,7 @@ static void read_texel(const ppmi_ktx2_format *format, const unsigned char *p, f
             break;
         case PPMI_KTX2_BLOCKS:
         case PPMI_KTX2_ASTC:
+        case PPMI_KTX2_ETC1S:
             break;
         }
         if (format->is_srgb && c < 3) out[c] = srgb_to_linear(out[c]);
@@ -216,26 +218,54 @@ static ppm_status wrap_blocks(ppm_context *context, ppmi_ktx2 *file, const unsig
     return PPM_STATUS_OK;
 }
 
-/* ASTC: decoded, then read as texels of four bytes. */
-static ppm_status decode_astc(ppm_context *context, ppmi_ktx2 *file, const unsigned char *picture,
-                              ppm_image_desc *desc, void **out_owned)
+/* ---- blocks that become texels of four bytes --------------------------------------------------
+ */
+
+static ppm_status decode_astc(const ppmi_ktx2 *file, uint32_t index, uint8_t *out,
+                              const char **reason)
+{
+    const unsigned char *picture = file->level + index * file->picture_bytes;
+    *reason = "its ASTC blocks cannot be decoded";
+    return ppmi_ktx2_decode_astc(picture, file->picture_bytes, file->format.block,
+                                 file->format.is_srgb, file->width, file->height, out);
+}
+
+/* Of two channels the second is decoded as alpha is. */
+static ppm_status decode_etc1s(ppm_context *context, const ppmi_ktx2 *file, uint32_t index,
+                               uint8_t *out, const char **reason)
+{
+    const ppmi_basis_source source = {file->global,      file->global_bytes, file->level,
+                                      file->level_bytes, file->images,       index,
+                                      file->width,       file->height};
+    const ppm_status status = ppmi_basis_decode_etc1s(context, &source, out, reason);
+    if (status != PPM_STATUS_OK || file->format.channels != 2) return status;
+    for (size_t i = 0; i < (size_t)file->width * file->height; ++i)
+        out[4 * i + 1] = out[4 * i + 3];
+    return PPM_STATUS_OK;
+}
+
+static ppm_status decode(ppm_context *context, ppmi_ktx2 *file, uint32_t index,
+                         ppm_image_desc *desc, void **out_owned)
 {
     const ppmi_ktx2_format blocks = file->format;
+    const char *reason = "";
     uint8_t *decoded = ppmi_alloc(context, (size_t)file->width * file->height, 4);
     ppm_status status = PPM_STATUS_OUT_OF_MEMORY;
-    if (decoded) {
-        status = ppmi_ktx2_decode_astc(picture, file->picture_bytes, blocks.block, blocks.is_srgb,
-                                       file->width, file->height, decoded);
+    if (decoded && blocks.kind == PPMI_KTX2_ASTC) {
+        status = decode_astc(file, index, decoded, &reason);
+    } else if (decoded) {
+        status = decode_etc1s(context, file, index, decoded, &reason);
     }
     if (status == PPM_STATUS_OK) {
-        file->format = (ppmi_ktx2_format){
-            .kind = PPMI_KTX2_U8, .channels = 4, .bytes = 4, .is_srgb = blocks.is_srgb};
+        file->format = (ppmi_ktx2_format){.kind = PPMI_KTX2_U8,
+                                          .channels = blocks.channels,
+                                          .bytes = 4,
+                                          .is_srgb = blocks.is_srgb};
         status = read_texels(context, file, decoded, desc, out_owned);
         file->format = blocks;
     } else {
         snprintf(file->reason, sizeof file->reason, "%s",
-                 status == PPM_STATUS_OUT_OF_MEMORY ? "out of memory"
-                                                    : "its ASTC blocks cannot be decoded");
+                 status == PPM_STATUS_OUT_OF_MEMORY ? "out of memory" : reason);
     }
     ppmi_free(context, decoded);
     return status;
@@ -248,7 +278,7 @@ ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t lay
         snprintf(file->reason, sizeof file->reason, "it has no layer %u", layer);
         return PPM_STATUS_INPUT_UNSUPPORTED;
     }
-    const size_t index = (size_t)layer * file->faces + face;
+    const uint32_t index = layer * file->faces + face;
     const unsigned char *picture = file->level + index * file->picture_bytes;
     desc->bytes = desc->path = NULL;
     desc->byte_count = 0;
@@ -256,7 +286,8 @@ ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t lay
     case PPMI_KTX2_BLOCKS:
         return wrap_blocks(context, file, picture, desc, out_owned);
     case PPMI_KTX2_ASTC:
-        return decode_astc(context, file, picture, desc, out_owned);
+    case PPMI_KTX2_ETC1S:
+        return decode(context, file, index, desc, out_owned);
     default:
         return read_texels(context, file, picture, desc, out_owned);
     }

@@ -105,7 +105,7 @@ static void shapes_that_are_no_picture_are_refused(void **state)
     }
 }
 
-static void basis_universal_is_recognised_by_name(void **state)
+static void basis_universal_that_is_not_read_has_a_name(void **state)
 {
     gltf_fixture *f = *state;
     char reason[PPMI_KTX2_REASON];
@@ -113,10 +113,14 @@ static void basis_universal_is_recognised_by_name(void **state)
     size_t count = ktx2_make(&spec, made);
     assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_UNSUPPORTED);
     assert_non_null(strstr(reason, "UASTC"));
-    spec.scheme = 1;
+    spec.color_model = 167;
     count = ktx2_make(&spec, made);
     assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_UNSUPPORTED);
-    assert_non_null(strstr(reason, "ETC1S"));
+    assert_non_null(strstr(reason, "UASTC HDR"));
+    spec.color_model = 163;
+    count = ktx2_make(&spec, made);
+    assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_INVALID);
+    assert_non_null(strstr(reason, "not packed by BasisLZ"));
     spec = (ktx2_spec){.format = 1000066000, .width = 4, .height = 4, .data = texels, .count = 16};
     count = ktx2_make(&spec, made);
     assert_int_equal(open_copy(f, made, count, reason), PPM_STATUS_INPUT_UNSUPPORTED);
@@ -436,7 +440,7 @@ static void a_texture_in_astc_is_shown_after_the_plain_one(void **state)
 }
 #endif
 
-static void a_required_texture_in_basis_universal_refuses_the_file(void **state)
+static void a_required_texture_in_uastc_refuses_the_file(void **state)
 {
     gltf_fixture *f = *state;
     const ktx2_spec spec = {
@@ -533,13 +537,13 @@ int main(void)
         TEST(a_file_that_ends_early_is_refused),
         TEST(sizes_that_lie_are_refused_or_harmless),
         TEST(shapes_that_are_no_picture_are_refused),
-        TEST(basis_universal_is_recognised_by_name),
+        TEST(basis_universal_that_is_not_read_has_a_name),
         TEST(each_format_gives_the_values_that_it_stores),
         TEST(values_of_eight_bits_stay_what_they_are),
         TEST(channels_and_axes_are_turned_as_the_file_says),
         TEST(pictures_packed_by_zlib_are_read),
         TEST(pictures_packed_by_zstandard_are_read),
-        TEST(a_required_texture_in_basis_universal_refuses_the_file),
+        TEST(a_required_texture_in_uastc_refuses_the_file),
         TEST(a_required_plain_texture_is_shown),
         TEST(a_cube_is_no_texture),
         TEST(blocks_are_decoded),
