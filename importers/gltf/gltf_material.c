@@ -108,6 +108,7 @@ static void convert_dielectric(conversion *c)
     ppmi_gltf_set_texture(c, "KHR_materials_specular.specularColorTexture",
                           &from->specular_color_texture, PPM_IMAGE_COLOR,
                           &desc->specular_color_texture);
+    desc->specular_is_edge_color = from->specular_is_edge_color;
 }
 
 /* glTF has no word for which of two overlapping solids is there, so it is one of ours. */

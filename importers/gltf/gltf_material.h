@@ -37,6 +37,10 @@ int32_t ppmi_gltf_alpha_role(const ppmi_gltf_conversion *c, const ppmi_gltf_text
 /* gltf_material_layers.c: clearcoat, sheen, iridescence, anisotropy, retroreflection. */
 void ppmi_gltf_convert_layers(ppmi_gltf_conversion *c);
 
+/* gltf_material_coat.c: the drafts that are to replace clearcoat and sheen. */
+void ppmi_gltf_convert_coat(ppmi_gltf_conversion *c);
+void ppmi_gltf_convert_fuzz(ppmi_gltf_conversion *c);
+
 /* gltf_material_inside.c: transmission, diffuse transmission, and the volume behind them. */
 void ppmi_gltf_convert_inside(ppmi_gltf_conversion *c);
 

@@ -1,5 +1,5 @@
 /* The extensions that lay something on a surface or bend its highlight: KHR_materials_clearcoat,
- * _sheen, _iridescence, _anisotropy, and the draft _retroreflection. */
+ * _sheen, _iridescence, _anisotropy, and the drafts _retroreflection and _diffuse_roughness. */
 #include <math.h>
 
 #include "gltf/gltf_material.h"
@@ -87,10 +87,29 @@ static void convert_retroreflection(ppmi_gltf_conversion *c)
                           &c->desc.retroreflection_texture);
 }
 
+static void convert_diffuse_roughness(ppmi_gltf_conversion *c)
+{
+    const ppmi_gltf_layers *from = &c->from->layers;
+    ppmi_gltf_set(c, "KHR_materials_diffuse_roughness.diffuseRoughnessFactor",
+                  &from->diffuse_roughness, 1, 0.0, 1.0, &c->desc.diffuse_roughness);
+    ppmi_gltf_set_texture(c, "KHR_materials_diffuse_roughness.diffuseRoughnessTexture",
+                          &from->diffuse_roughness_texture, PPM_IMAGE_DATA,
+                          &c->desc.diffuse_roughness_texture);
+}
+
 void ppmi_gltf_convert_layers(ppmi_gltf_conversion *c)
 {
-    convert_clearcoat(c);
-    convert_sheen(c);
+    if (c->from->layers.coat.is_given) {
+        ppmi_gltf_convert_coat(c);
+    } else {
+        convert_clearcoat(c);
+    }
+    if (c->from->layers.fuzz.is_given) {
+        ppmi_gltf_convert_fuzz(c);
+    } else {
+        convert_sheen(c);
+    }
+    convert_diffuse_roughness(c);
     convert_iridescence(c);
     convert_anisotropy(c);
     convert_retroreflection(c);

@@ -268,9 +268,16 @@ static const gltf_field pbr[] = {NUMBERS("baseColorFactor", 4, 0),
 static const gltf_field dispersion[] = {NUMBER("dispersion"), END};
 static const gltf_field emissive_strength[] = {NUMBER("emissiveStrength"), END};
 static const gltf_field ior[] = {NUMBER("ior"), END};
-static const gltf_field specular[] = {
-    NUMBER("specularFactor"), OBJECT("specularTexture", texture_info),
-    NUMBERS("specularColorFactor", 3, 0), OBJECT("specularColorTexture", texture_info), END};
+static const gltf_field specular_edge_color[] = {FIELD("specularEdgeColorEnabled", GLTF_BOOLEAN),
+                                                 END};
+static const gltf_field specular_extensions[] = {
+    OBJECT("EXT_materials_specular_edge_color", specular_edge_color), END};
+static const gltf_field specular[] = {NUMBER("specularFactor"),
+                                      OBJECT("specularTexture", texture_info),
+                                      NUMBERS("specularColorFactor", 3, 0),
+                                      OBJECT("specularColorTexture", texture_info),
+                                      OBJECT("extensions", specular_extensions),
+                                      END};
 static const gltf_field transmission[] = {NUMBER("transmissionFactor"),
                                           OBJECT("transmissionTexture", texture_info), END};
 static const gltf_field volume[] = {
@@ -285,6 +292,28 @@ static const gltf_field clearcoat[] = {NUMBER("clearcoatFactor"),
                                        OBJECT("clearcoatRoughnessTexture", texture_info),
                                        OBJECT("clearcoatNormalTexture", texture_info),
                                        END};
+static const gltf_field coat[] = {NUMBER("coatFactor"),
+                                  OBJECT("coatTexture", texture_info),
+                                  NUMBER("coatRoughnessFactor"),
+                                  OBJECT("coatRoughnessTexture", texture_info),
+                                  OBJECT("coatNormalTexture", texture_info),
+                                  NUMBER("coatIor"),
+                                  NUMBERS("coatColorFactor", 3, 0),
+                                  OBJECT("coatColorTexture", texture_info),
+                                  NUMBER("coatDarkeningFactor"),
+                                  NUMBER("coatAnisotropyStrength"),
+                                  NUMBER("coatAnisotropyRotation"),
+                                  OBJECT("coatAnisotropyTexture", texture_info),
+                                  END};
+static const gltf_field diffuse_roughness[] = {
+    NUMBER("diffuseRoughnessFactor"), OBJECT("diffuseRoughnessTexture", texture_info), END};
+static const gltf_field fuzz[] = {NUMBER("fuzzFactor"),
+                                  OBJECT("fuzzTexture", texture_info),
+                                  NUMBERS("fuzzColorFactor", 3, 0),
+                                  OBJECT("fuzzColorTexture", texture_info),
+                                  NUMBER("fuzzRoughnessFactor"),
+                                  OBJECT("fuzzRoughnessTexture", texture_info),
+                                  END};
 static const gltf_field diffuse_transmission[] = {
     NUMBER("diffuseTransmissionFactor"), OBJECT("diffuseTransmissionTexture", texture_info),
     NUMBERS("diffuseTransmissionColorFactor", 3, 0),
@@ -320,9 +349,12 @@ static const gltf_field material_extensions[] = {
     OBJECT("EXT_materials_retroreflection", retroreflection),
     OBJECT("KHR_materials_anisotropy", anisotropy),
     OBJECT("KHR_materials_clearcoat", clearcoat),
+    OBJECT("KHR_materials_coat", coat),
+    OBJECT("KHR_materials_diffuse_roughness", diffuse_roughness),
     OBJECT("KHR_materials_diffuse_transmission", diffuse_transmission),
     OBJECT("KHR_materials_dispersion", dispersion),
     OBJECT("KHR_materials_emissive_strength", emissive_strength),
+    OBJECT("KHR_materials_fuzz", fuzz),
     OBJECT("KHR_materials_ior", ior),
     OBJECT("KHR_materials_iridescence", iridescence),
     OBJECT("KHR_materials_pbrSpecularGlossiness", specular_glossiness),

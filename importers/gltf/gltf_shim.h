@@ -257,6 +257,21 @@ typedef struct ppmi_gltf_texture_info {
     double offset[2], rotation_rad, uv_scale[2];
 } ppmi_gltf_texture_info;
 
+/* KHR_materials_coat, which goes before KHR_materials_clearcoat */
+typedef struct ppmi_gltf_coat {
+    bool is_given;
+    double factor, roughness, ior, color[3], darkening, anisotropy, anisotropy_rotation_rad;
+    ppmi_gltf_texture_info texture, roughness_texture, normal_texture, color_texture,
+        anisotropy_texture;
+} ppmi_gltf_coat;
+
+/* KHR_materials_fuzz, which goes before KHR_materials_sheen */
+typedef struct ppmi_gltf_fuzz {
+    bool is_given;
+    double factor, color[3], roughness;
+    ppmi_gltf_texture_info texture, color_texture, roughness_texture;
+} ppmi_gltf_fuzz;
+
 /* What lies on a surface or bends its highlight; each extension's defaults where it is absent. */
 typedef struct ppmi_gltf_layers {
     double clearcoat, clearcoat_roughness;
@@ -269,6 +284,10 @@ typedef struct ppmi_gltf_layers {
     ppmi_gltf_texture_info anisotropy_texture;
     double retroreflection;
     ppmi_gltf_texture_info retroreflection_texture;
+    double diffuse_roughness;
+    ppmi_gltf_texture_info diffuse_roughness_texture;
+    ppmi_gltf_coat coat;
+    ppmi_gltf_fuzz fuzz;
 } ppmi_gltf_layers;
 
 /* Light that gets to the other side without being refracted, and light inside. */
@@ -300,6 +319,7 @@ typedef struct ppmi_gltf_material {
     double ior;
     double specular, specular_color[3];
     ppmi_gltf_texture_info specular_texture, specular_color_texture;
+    bool specular_is_edge_color; /* EXT_materials_specular_edge_color */
     double transmission;
     ppmi_gltf_texture_info transmission_texture;
     double thickness, attenuation_color[3], attenuation_distance; /* HUGE_VAL: not given */

@@ -50,6 +50,36 @@ void copy_clearcoat_and_sheen(const tinygltf::ExtensionMap &map, ppmi_gltf_layer
     out->sheen_roughness_texture = extension_texture(sheen, "sheenRoughnessTexture");
 }
 
+void copy_coat(const tinygltf::ExtensionMap &map, ppmi_gltf_coat *out)
+{
+    const Value &coat = extension(map, "KHR_materials_coat");
+    out->is_given = coat.IsObject();
+    out->factor = number_or(coat, "coatFactor", 0.0);
+    out->texture = extension_texture(coat, "coatTexture");
+    out->roughness = number_or(coat, "coatRoughnessFactor", 0.0);
+    out->roughness_texture = extension_texture(coat, "coatRoughnessTexture");
+    out->normal_texture = extension_texture(coat, "coatNormalTexture");
+    out->ior = number_or(coat, "coatIor", 1.5);
+    numbers_or(coat, "coatColorFactor", out->color, 3, 1.0);
+    out->color_texture = extension_texture(coat, "coatColorTexture");
+    out->darkening = number_or(coat, "coatDarkeningFactor", 1.0);
+    out->anisotropy = number_or(coat, "coatAnisotropyStrength", 0.0);
+    out->anisotropy_rotation_rad = number_or(coat, "coatAnisotropyRotation", 0.0);
+    out->anisotropy_texture = extension_texture(coat, "coatAnisotropyTexture");
+}
+
+void copy_fuzz(const tinygltf::ExtensionMap &map, ppmi_gltf_fuzz *out)
+{
+    const Value &fuzz = extension(map, "KHR_materials_fuzz");
+    out->is_given = fuzz.IsObject();
+    out->factor = number_or(fuzz, "fuzzFactor", 0.0);
+    out->texture = extension_texture(fuzz, "fuzzTexture");
+    numbers_or(fuzz, "fuzzColorFactor", out->color, 3, 1.0);
+    out->color_texture = extension_texture(fuzz, "fuzzColorTexture");
+    out->roughness = number_or(fuzz, "fuzzRoughnessFactor", 0.5);
+    out->roughness_texture = extension_texture(fuzz, "fuzzRoughnessTexture");
+}
+
 // Of retroreflection both the draft of Khronos and the extension that it grew out of.
 void copy_highlights(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
 {
@@ -70,6 +100,10 @@ void copy_highlights(const tinygltf::ExtensionMap &map, ppmi_gltf_layers *out)
     const Value &retro = draft.IsObject() ? draft : extension(map, "EXT_materials_retroreflection");
     out->retroreflection = number_or(retro, "retroreflectionFactor", 0.0);
     out->retroreflection_texture = extension_texture(retro, "retroreflectionTexture");
+
+    const Value &rough = extension(map, "KHR_materials_diffuse_roughness");
+    out->diffuse_roughness = number_or(rough, "diffuseRoughnessFactor", 0.0);
+    out->diffuse_roughness_texture = extension_texture(rough, "diffuseRoughnessTexture");
 }
 
 // The colour of KHR_materials_volume_scatter has had two names so far. KHR_materials_scatter, which
@@ -120,6 +154,10 @@ void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material
     out->specular_texture = extension_texture(specular, "specularTexture");
     numbers_or(specular, "specularColorFactor", out->specular_color, 3, 1.0);
     out->specular_color_texture = extension_texture(specular, "specularColorTexture");
+    const Value &edge =
+        member(member(member(specular, "extensions"), "EXT_materials_specular_edge_color"),
+               "specularEdgeColorEnabled");
+    out->specular_is_edge_color = edge.IsBool() && edge.Get<bool>();
 
     const Value &transmission = extension(map, "KHR_materials_transmission");
     out->transmission = number_or(transmission, "transmissionFactor", 0.0);
@@ -132,6 +170,8 @@ void copy_material_extensions(const tinygltf::Material &from, ppmi_gltf_material
     out->dispersion = number_or(extension(map, "KHR_materials_dispersion"), "dispersion", 0.0);
     copy_clearcoat_and_sheen(map, &out->layers);
     copy_highlights(map, &out->layers);
+    copy_coat(map, &out->layers.coat);
+    copy_fuzz(map, &out->layers.fuzz);
     copy_scattering(map, &out->scattering);
     copy_specular_glossiness(map, &out->specular_glossiness);
 }

@@ -117,6 +117,19 @@ static const ppmi_setup_key keys[] = {
     IMAGE(retroreflection_texture, read_data_image),
     {"roughness_is_glossiness", PPMI_SETUP_FLAG, FIELD(roughness_is_glossiness)},
     {"emission_takes_vertex_color", PPMI_SETUP_FLAG, FIELD(emission_takes_vertex_color)},
+    REAL(diffuse_roughness, 0, 1),
+    IMAGE(diffuse_roughness_texture, read_data_image),
+    {"specular_is_edge_color", PPMI_SETUP_FLAG, FIELD(specular_is_edge_color)},
+    REAL(coat_ior, 0, 1e3),
+    COLOR(coat_color, 1),
+    IMAGE(coat_color_texture, read_color_image),
+    REAL(coat_darkening, 0, 1),
+    REAL(coat_anisotropy, 0, 1),
+    REAL(coat_anisotropy_rotation_rad, -1e6, 1e6),
+    IMAGE(coat_anisotropy_texture, read_data_image),
+    {"emission_is_above_coat", PPMI_SETUP_FLAG, FIELD(emission_is_above_coat)},
+    REAL(fuzz, 0, 1),
+    IMAGE(fuzz_texture, read_data_image),
 };
 #undef FIELD
 #undef REAL

@@ -212,6 +212,30 @@ typedef struct ppm_material_desc {
                                              metallic (KHR_materials_pbrSpecularGlossiness) */
     uint32_t emission_takes_vertex_color; /* non-zero: vertex colours multiply the emission, as they
                                              do base_color (KHR_materials_unlit) */
+
+    float diffuse_roughness; /* KHR_materials_diffuse_roughness (draft), 0..1, of the diffuse base
+                                and what it transmits; default 0: Lambert's */
+    ppm_texture diffuse_roughness_texture; /* R */
+
+    uint32_t specular_is_edge_color; /* non-zero: EXT_materials_specular_edge_color (draft):
+                                        specular_color tints the whole of a dielectric's reflection,
+                                        and that of metals at 82 degrees */
+
+    /* KHR_materials_coat (draft): what it has beyond the clearcoat */
+    float coat_ior;                      /* default 1.5; 0 as for ior */
+    float coat_color[3];                 /* of light that has crossed it twice; default 1 1 1 */
+    ppm_texture coat_color_texture;      /* RGB */
+    float coat_darkening;                /* of what lies below, by light that is reflected to and
+                                            fro; 0..1; default 0, the extension's is 1 */
+    float coat_anisotropy;               /* strength, 0..1; default 0 */
+    float coat_anisotropy_rotation_rad;  /* as anisotropy_rotation_rad */
+    ppm_texture coat_anisotropy_texture; /* RG direction in -1..1, B strength */
+    uint32_t emission_is_above_coat;     /* non-zero: the coat does not dim emission; default 0 */
+
+    float fuzz;               /* KHR_materials_fuzz (draft): the share of the surface that fibres
+                                 cover, 0..1; default 0. Above 0, sheen_color is their colour alone
+                                 and they lie above the coat */
+    ppm_texture fuzz_texture; /* R */
 } ppm_material_desc;
 
 /* Fills in the defaults and size. */

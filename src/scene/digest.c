@@ -26,7 +26,7 @@ static void add_material(ppmi_digest *digest, const ppmi_material *material)
 {
     enum {
         BEGIN = offsetof(ppm_material_desc, base_color),
-        END = offsetof(ppm_material_desc, emission_takes_vertex_color) + sizeof(uint32_t)
+        END = offsetof(ppm_material_desc, fuzz_texture) + sizeof(ppm_texture)
     };
     _Static_assert(sizeof(ppm_material_desc) - END < 8, "a field was appended: take it in");
     ppmi_digest_add_text(digest, material->name);

@@ -125,6 +125,8 @@ void ppm_material_desc_init(ppm_material_desc *desc)
         .double_sided = 1,
         .clearcoat_normal_scale = 1.0f,
         .iridescence_ior = 1.3f,
+        .coat_ior = 1.5f,
+        .coat_color = {1.0f, 1.0f, 1.0f},
         .iridescence_thickness_min_nm = 100.0f,
         .iridescence_thickness_max_nm = 400.0f,
         .diffuse_transmission_color = {1.0f, 1.0f, 1.0f},
@@ -186,6 +188,10 @@ static ppm_status check_textures(const ppm_scene *scene, const ppm_material_desc
         {"diffuse transmission", &desc->diffuse_transmission_texture},
         {"diffuse transmission colour", &desc->diffuse_transmission_color_texture},
         {"retroreflection", &desc->retroreflection_texture},
+        {"diffuse roughness", &desc->diffuse_roughness_texture},
+        {"coat colour", &desc->coat_color_texture},
+        {"coat anisotropy", &desc->coat_anisotropy_texture},
+        {"fuzz", &desc->fuzz_texture},
     };
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {
         const ppm_status status = check_texture(scene, slots[i].slot, slots[i].texture);
@@ -232,6 +238,13 @@ static ppm_status check_factors(const ppm_scene *scene, const ppm_material_desc 
         {"multiscatter_color", desc->multiscatter_color, 3, 0.0f, 1.0f},
         {"scatter_anisotropy_g", &desc->scatter_anisotropy_g, 1, -0.999999f, 0.999999f},
         {"retroreflection", &desc->retroreflection, 1, 0.0f, 1.0f},
+        {"diffuse_roughness", &desc->diffuse_roughness, 1, 0.0f, 1.0f},
+        {"coat_ior", &desc->coat_ior, 1, 0.0f, 1e3f},
+        {"coat_color", desc->coat_color, 3, 0.0f, 1.0f},
+        {"coat_darkening", &desc->coat_darkening, 1, 0.0f, 1.0f},
+        {"coat_anisotropy", &desc->coat_anisotropy, 1, 0.0f, 1.0f},
+        {"coat_anisotropy_rotation_rad", &desc->coat_anisotropy_rotation_rad, 1, -1e6f, 1e6f},
+        {"fuzz", &desc->fuzz, 1, 0.0f, 1.0f},
     };
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
         if (!all_in(ranges[i].values, ranges[i].count, ranges[i].low, ranges[i].high)) {
@@ -287,8 +300,9 @@ static bool is_empty(const ppmi_medium *medium)
 /* The colours of a material, factors as reflectances (KHR_materials_specular's may be above 1). */
 static void to_working_space(const ppmi_working_space *space, ppm_material_desc *desc)
 {
-    float *const reflectances[] = {desc->base_color, desc->attenuation_color, desc->sheen_color,
-                                   desc->diffuse_transmission_color, desc->multiscatter_color};
+    float *const reflectances[] = {desc->base_color,  desc->attenuation_color,
+                                   desc->sheen_color, desc->multiscatter_color,
+                                   desc->coat_color,  desc->diffuse_transmission_color};
     for (size_t i = 0; i < sizeof reflectances / sizeof reflectances[0]; i++)
         ppmi_working_reflectance(space, reflectances[i], reflectances[i]);
     ppmi_working_light(space, desc->emission, desc->emission);
@@ -312,7 +326,8 @@ static void derive(ppmi_material *material)
     material->is_layered = desc->clearcoat > 0.0f || desc->iridescence > 0.0f ||
                            !vec3_is_black(vec3_load(desc->sheen_color)) ||
                            desc->anisotropy > 0.0f || desc->diffuse_transmission > 0.0f ||
-                           desc->retroreflection > 0.0f;
+                           desc->retroreflection > 0.0f || desc->fuzz > 0.0f ||
+                           (desc->specular_is_edge_color && desc->metallic > 0.0f);
 }
 
 ppm_status ppm_scene_add_material(ppm_scene *scene, const ppm_material_desc *desc,

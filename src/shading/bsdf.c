@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "shading/diffuse_base.h"
 #include "shading/glass_lobe.h"
 #include "shading/layers.h"
 #include "shading/microfacet.h"
@@ -26,11 +27,8 @@ static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
 }
 
 static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average,
-                      const ppmi_material_point *point, ppmi_vec3 dielectric_f0, float opaque,
-                      float metallic)
+                      const ppmi_material_point *point, float opaque, float metallic)
 {
-    bsdf->coat_f0 = vec3_max_component(dielectric_f0);
-    bsdf->coat_f90 = point->specular;
     const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
     const float left_average = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
     const float coat = opaque * (1.0f - metallic) * left_o / ppmi_max(left_average, 1e-4f);
@@ -117,8 +115,6 @@ __attribute__((noinline)) static void make_layered(ppmi_bsdf *bsdf, const ppmi_a
                                                    const ppmi_material_point *point, ppmi_vec3 wo,
                                                    ppmi_vec3 dielectric_f0, float opaque)
 {
-    bsdf->coat_f0 = vec3_max_component(dielectric_f0);
-    bsdf->coat_f90 = point->specular;
     const ppmi_base_shares shares = {dielectric_f0, opaque,
                                      opaque > 0.0f ? point->metallic / opaque : 0.0f};
     ppmi_vec3 normal = point->layers.coat_normal;
@@ -127,6 +123,35 @@ __attribute__((noinline)) static void make_layered(ppmi_bsdf *bsdf, const ppmi_a
     ppmi_lobe_albedos albedos;
     ppmi_layers_make(bsdf, albedo, point, &shares, normal, &albedos);
     choose_by_albedo(bsdf, albedos.of, PPMI_LOBE_COUNT);
+}
+
+/* F0 and F90 of the dielectric, and of both what the diffuse base is left: f = F0 + (F90 - F0)
+ * schlick. By KHR_materials_specular the colour is that of F0. */
+static ppmi_vec3 make_dielectric(ppmi_bsdf *bsdf, const ppmi_material_point *point)
+{
+    const float index = ppmi_dielectric_index(point->ior);
+    const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
+    const ppmi_vec3 f0 = vec3(ppmi_min(r0 * point->specular_color.x, 1.0f) * point->specular,
+                              ppmi_min(r0 * point->specular_color.y, 1.0f) * point->specular,
+                              ppmi_min(r0 * point->specular_color.z, 1.0f) * point->specular);
+    bsdf->f90 = vec3_splat(point->specular);
+    bsdf->coat_f0 = vec3_max_component(f0);
+    bsdf->coat_f90 = point->specular;
+    return f0;
+}
+
+/* By EXT_materials_specular_edge_color it is that of the whole lobe, and takes nothing from the
+ * base: what is beyond 1 of it counts as weight. */
+static ppmi_vec3 make_edge_colored_dielectric(ppmi_bsdf *bsdf, const ppmi_material_point *point)
+{
+    const float index = ppmi_dielectric_index(point->ior);
+    const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
+    const float most = ppmi_max(vec3_max_component(point->specular_color), 1.0f);
+    const ppmi_vec3 color = vec3_scale(point->specular_color, 1.0f / most);
+    bsdf->coat_f0 = ppmi_min(r0 * point->specular * most, 1.0f);
+    bsdf->coat_f90 = ppmi_min(point->specular * most, 1.0f);
+    bsdf->f90 = vec3_scale(color, bsdf->coat_f90);
+    return vec3_scale(color, bsdf->coat_f0);
 }
 
 void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface,
@@ -143,18 +168,18 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
     bsdf->roughness = point->roughness;
     bsdf->alpha = point->roughness * point->roughness;
 
-    const float index = ppmi_dielectric_index(point->ior);
-    const float r0 = ppmi_sqr((index - 1.0f) / (index + 1.0f));
-    const ppmi_vec3 dielectric_f0 =
-        vec3(ppmi_min(r0 * point->specular_color.x, 1.0f) * point->specular,
-             ppmi_min(r0 * point->specular_color.y, 1.0f) * point->specular,
-             ppmi_min(r0 * point->specular_color.z, 1.0f) * point->specular);
+    const ppmi_vec3 dielectric_f0 = point->edge_color ? make_edge_colored_dielectric(bsdf, point)
+                                                      : make_dielectric(bsdf, point);
     const float opaque = 1.0f - point->transmission * (1.0f - point->metallic);
     /* the dielectric's share of the opaque part, with its metallic blend */
     const float metal = opaque > 0.0f ? point->metallic / opaque : 0.0f;
     bsdf->f0 = vec3_scale(vec3_lerp(dielectric_f0, point->base_color, metal), opaque);
-    bsdf->f90 = vec3_splat(opaque * (point->specular + (1.0f - point->specular) * metal));
+    bsdf->f90 = vec3_scale(vec3_lerp(bsdf->f90, vec3_splat(1.0f), metal), opaque);
     make_glass(bsdf, albedo, point, is_outside);
+    if (point->diffuse_roughness > 0.0f) {
+        bsdf->diffuse_roughness = point->diffuse_roughness;
+        bsdf->diffuse_lost = ppmi_rough_diffuse_lost(point->diffuse_roughness, bsdf->wo.z);
+    }
     if (point->is_layered) {
         make_layered(bsdf, albedo, point, wo, dielectric_f0, opaque);
         return;
@@ -164,7 +189,7 @@ void ppmi_bsdf_make(const ppmi_albedo_table *albedo, const ppmi_surface *surface
         at_o = ppmi_albedo_directional(albedo, bsdf->roughness, bsdf->wo.z);
         average = ppmi_albedo_average(albedo, bsdf->roughness);
     }
-    make_wide(bsdf, at_o, average, point, dielectric_f0, opaque, metal);
+    make_wide(bsdf, at_o, average, point, opaque, metal);
     make_lobe_masks(bsdf, at_o, average);
 }
 
@@ -183,16 +208,16 @@ void ppmi_bsdf_make_phase(const ppmi_medium *medium, ppmi_vec3 wo, ppmi_bsdf *ou
 
 /* ---- evaluation ------------------------------------------------------------------------------ */
 
-static ppmi_vec3 wide_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float cos_i)
+static ppmi_vec3 wide_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
 {
+    const ppmi_vec3 base = ppmi_bsdf_diffuse(bsdf, bsdf->coat_base, bsdf->tint, wi);
     if (bsdf->coat_f90 == 0.0f && bsdf->coat_f0 == 0.0f && vec3_is_black(bsdf->metal_base)) {
-        return vec3_scale(bsdf->coat_base, PPMI_INV_PI); /* plain Lambert */
+        return vec3_scale(base, PPMI_INV_PI); /* nothing above it */
     }
-    const ppmi_albedo_pair at_i = ppmi_albedo_directional(albedo, bsdf->roughness, cos_i);
+    const ppmi_albedo_pair at_i = ppmi_albedo_directional(albedo, bsdf->roughness, wi.z);
     const float coat = 1.0f - pair_value(at_i, bsdf->coat_f0, bsdf->coat_f90);
     const float metal = ppmi_max(1.0f - at_i.a - at_i.b, 0.0f);
-    return vec3_scale(vec3_mad(vec3_scale(bsdf->coat_base, coat), bsdf->metal_base, metal),
-                      PPMI_INV_PI);
+    return vec3_scale(vec3_mad(vec3_scale(base, coat), bsdf->metal_base, metal), PPMI_INV_PI);
 }
 
 static ppmi_vec3 spec_fresnel(const ppmi_bsdf *bsdf, float cos_h)
@@ -233,12 +258,12 @@ __attribute__((noinline)) static ppmi_vec3 layered_eval(const ppmi_bsdf *bsdf,
     if (sides_agree(side, wi.z)) {
         f = ppmi_layers_eval_base(bsdf, albedo, wi, mask);
         if (mask & PPMI_LOBE_GLASS) {
-            f = vec3_mad(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport),
-                         ppmi_layers_passing(bsdf, albedo, wi));
+            f = vec3_add(f, vec3_mul(ppmi_glass_lobe_eval(bsdf, albedo, wi, transport),
+                                     ppmi_layers_glass_passing(bsdf, albedo, wi)));
         }
     }
     if (mask & PPMI_LOBE_COAT && side > 0.0f) {
-        f = vec3_add(f, ppmi_layers_eval_coat(bsdf, wi, transport));
+        f = vec3_add(f, ppmi_layers_eval_coat(bsdf, albedo, wi, transport));
     }
     return f;
 }
@@ -256,7 +281,7 @@ static inline ppmi_vec3 eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *alb
     ppmi_vec3 f = vec3_splat(0.0f);
     if (!sides_agree(side, wi.z)) return f;
     if (wi.z > 0.0f) {
-        if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi.z);
+        if (mask & PPMI_LOBE_WIDE) f = wide_eval(bsdf, albedo, wi);
         if (mask & PPMI_LOBE_SPEC) f = vec3_add(f, spec_eval(bsdf, wi));
     }
     if (mask & PPMI_LOBE_GLASS) f = vec3_add(f, ppmi_glass_lobe_eval(bsdf, albedo, wi, transport));
@@ -361,7 +386,7 @@ static void cover(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_v
                   ppmi_bsdf_sample *sample)
 {
     if (!bsdf->is_layered) return;
-    sample->weight = vec3_scale(sample->weight, ppmi_layers_passing(bsdf, albedo, local));
+    sample->weight = vec3_mul(sample->weight, ppmi_layers_glass_passing(bsdf, albedo, local));
 }
 
 /* Reflection at the smooth interface, with share times what is reflected as weight. */
@@ -532,7 +557,8 @@ bool ppmi_bsdf_draw(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint
 
 /* ---- albedo ---------------------------------------------------------------------------------- */
 
-/* Schlick's albedo by channel, and the base by what the coat leaves over on average; both exact. */
+/* Schlick's albedo by channel, and the base by what the coat leaves over on average; both exact,
+ * but for a rough base under a coat, which leaves over more of some directions than of others. */
 static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
 {
     ppmi_vec3 sum = vec3_splat(0.0f);
@@ -543,7 +569,7 @@ static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
     }
     if (mask & PPMI_LOBE_WIDE) {
         const float left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
-        sum = vec3_scale(bsdf->coat_base, left);
+        sum = vec3_scale(ppmi_bsdf_diffuse_albedo(bsdf, bsdf->coat_base, bsdf->tint), left);
         sum = vec3_mad(sum, bsdf->metal_base, 1.0f - average.a - average.b);
     }
     if (mask & PPMI_LOBE_SPEC) {
@@ -552,14 +578,22 @@ static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
     return sum;
 }
 
-/* With the Fresnel term of the smooth surface, and below what coat and sheen leave over here. */
-static ppmi_vec3 glass_albedo(const ppmi_bsdf *bsdf)
+/* With the Fresnel term of the smooth surface, and below what coat and sheen leave over along the
+ * smooth surface's directions. */
+static ppmi_vec3 glass_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
 {
     float cos_t;
     const float reflected = ppmi_glass_reflectance(bsdf, bsdf->wo.z, &cos_t);
-    const ppmi_vec3 tone = ppmi_glass_tone(bsdf, bsdf->wo.z, reflected);
-    const float share = bsdf->glass_weight * (bsdf->is_layered ? bsdf->layers.passing : 1.0f);
-    return vec3_scale(vec3_mad(tone, bsdf->tint, 1.0f - reflected), share);
+    ppmi_vec3 tone = ppmi_glass_tone(bsdf, bsdf->wo.z, reflected);
+    ppmi_vec3 through = vec3_scale(bsdf->tint, 1.0f - reflected);
+    if (bsdf->is_layered) {
+        const ppmi_vec3 wo = bsdf->wo, mirrored = ppmi_reflect_about(wo, local_up);
+        const ppmi_vec3 refracted =
+            bsdf->is_thin ? vec3_neg(wo) : ppmi_refract_about(wo, local_up, bsdf->eta, cos_t);
+        tone = vec3_mul(tone, ppmi_layers_glass_passing(bsdf, albedo, mirrored));
+        through = vec3_mul(through, ppmi_layers_glass_passing(bsdf, albedo, refracted));
+    }
+    return vec3_scale(vec3_add(tone, through), bsdf->glass_weight);
 }
 
 ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
@@ -567,5 +601,5 @@ ppmi_vec3 ppmi_bsdf_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albed
     mask &= bsdf->lobes;
     const ppmi_vec3 sum = bsdf->is_layered ? ppmi_layers_albedo(bsdf, albedo, mask)
                                            : plain_albedo(bsdf, albedo, mask);
-    return mask & PPMI_LOBE_GLASS ? vec3_add(sum, glass_albedo(bsdf)) : sum;
+    return mask & PPMI_LOBE_GLASS ? vec3_add(sum, glass_albedo(bsdf, albedo)) : sum;
 }

@@ -1,6 +1,7 @@
 /* The BSDF at one point, as lobes that can be evaluated, sampled and measured one by one.
  *
- *   WIDE   Lambert under the coat, and the multiple scattering of a rough metal: always gathers
+ *   WIDE   the diffuse base under the coat, and the multiple scattering of a rough metal: always
+ *          gathers
  *   SPEC   GGX reflection of the coat or the metal; a mirror when smooth
  *   GLASS  dielectric interface or thin sheet: reflection and refraction; smooth or rough
  *   PHASE  no surface at all but a point in a medium: sigma_s times the phase function, without
@@ -40,15 +41,25 @@ typedef enum ppmi_transport { PPMI_TRANSPORT_RADIANCE, PPMI_TRANSPORT_POWER } pp
 
 /* What layered materials have beyond the others. Directions are local. */
 typedef struct ppmi_bsdf_layers {
-    /* COAT: over all else */
+    /* COAT: over all else but fuzz */
     ppmi_vec3 coat_normal;
-    float coat, coat_roughness; /* share of the surface */
-    /* SHEEN: over the base */
+    ppmi_vec3 coat_tangent;
+    float coat; /* share of the surface */
+    float coat_f0, coat_ior;
+    ppmi_vec2 coat_alpha;    /* along the tangent and across */
+    float coat_roughness;    /* across */
+    float coat_anisotropy;   /* strength */
+    bool is_coat_tinted;     /* the next two are not white */
+    ppmi_vec3 coat_tint;     /* of light that has gone through it twice, straight */
+    ppmi_vec3 coat_darkened; /* what reflections to and fro below it leave of the base */
+    /* SHEEN: over the base, as fuzz over the coat too */
     ppmi_vec3 sheen_color;
+    float sheen_share; /* of the surface that the fibres cover */
     float sheen_roughness;
+    bool sheen_is_on_top;
     float passing; /* share of light from wo that coat and sheen leave to what lies below */
     /* THROUGH: like coat_base, to the other side */
-    ppmi_vec3 through;
+    ppmi_vec3 through, through_color;
     /* film on the base's speculars */
     float film, film_ior, film_nm;
     const ppmi_working_space *space; /* NULL: linear Rec.709 */
@@ -57,6 +68,8 @@ typedef struct ppmi_bsdf_layers {
     float anisotropy;                /* strength */
     float retro;                     /* share of RETRO in the base's speculars */
     float opaque, metallic;          /* share of what is not glass; metal's share of that */
+    bool has_metal_edge;
+    ppmi_vec3 metal_edge; /* what metals lack of Schlick's curve, by ppmi_f82_shape */
 } ppmi_bsdf_layers;
 
 typedef struct ppmi_bsdf {
@@ -69,6 +82,8 @@ typedef struct ppmi_bsdf {
     ppmi_vec3 coat_base;
     ppmi_vec3 metal_base;
     float coat_f0, coat_f90; /* for E */
+    float diffuse_roughness; /* above 0: coat_base is multiplied (rough_diffuse.h), where */
+    float diffuse_lost;      /* single scattering loses so much of light from wo */
 
     /* SPEC: (f0 + (f90 - f0) schlick) D G / 4 cos cos */
     ppmi_vec3 f0, f90;

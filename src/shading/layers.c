@@ -8,87 +8,206 @@
 #include "shading/layers.h"
 
 #include "shading/anisotropic.h"
+#include "shading/coat.h"
+#include "shading/diffuse_base.h"
 #include "shading/iridescence.h"
 #include "shading/sheen.h"
 
 static const float gather_alpha = 0.2f; /* as in bsdf.c */
-static const float coat_f0 = PPMI_COAT_F0;
 
 static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
 {
     return pair.a * f0 + pair.b * f90;
 }
 
-static float coat_alpha(const ppmi_bsdf_layers *layers)
+static bool is_coat_mirror(const ppmi_bsdf_layers *layers)
 {
-    return layers->coat_roughness * layers->coat_roughness;
+    return ppmi_max(layers->coat_alpha.x, layers->coat_alpha.y) < PPMI_SMOOTH_ALPHA;
 }
 
 /* ---- what the layers on top reflect ---------------------------------------------------------- */
 
-static float schlick(float f0, float cosine)
+static ppmi_frame coat_frame(const ppmi_bsdf_layers *layers)
 {
-    return f0 + (1.0f - f0) * ppmi_schlick_weight(cosine);
+    const ppmi_vec3 n = layers->coat_normal, t = layers->coat_tangent;
+    ppmi_frame frame = ppmi_frame_from_normal(n);
+    if (!(layers->coat_anisotropy > 0.0f)) return frame;
+    const ppmi_vec3 flat = vec3_mad(t, n, -vec3_dot(t, n));
+    if (!(vec3_length2(flat) > 1e-8f)) return frame;
+    frame.s = vec3_normalize(flat);
+    frame.t = vec3_cross(n, frame.s);
+    return frame;
 }
 
+/* A direction in the coat's frame; along its normal where there is none. Only a coat of two widths
+ * asks for more than the cosine. */
+static ppmi_vec3 in_coat(const ppmi_bsdf_layers *layers, ppmi_vec3 w)
+{
+    if (!(layers->coat > 0.0f)) return vec3(0.0f, 0.0f, 1.0f);
+    if (!(layers->coat_anisotropy > 0.0f)) {
+        return vec3(0.0f, 0.0f, fabsf(vec3_dot(layers->coat_normal, w)));
+    }
+    const ppmi_frame frame = coat_frame(layers);
+    const ppmi_vec3 local = ppmi_frame_to_local(&frame, w);
+    return vec3(local.x, local.y, fabsf(local.z));
+}
+
+/* One that stands for all of a cosine: between along and across. */
+static ppmi_vec3 at_cosine(float cosine)
+{
+    const float side = sqrtf(ppmi_max(0.5f * (1.0f - cosine * cosine), 0.0f));
+    return vec3(side, side, cosine);
+}
+
+/* w: in the coat's frame. */
 static float coat_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                         float cosine)
+                         ppmi_vec3 w)
 {
     if (!(layers->coat > 0.0f)) return 0.0f;
-    if (coat_alpha(layers) < PPMI_SMOOTH_ALPHA) return layers->coat * schlick(coat_f0, cosine);
-    const ppmi_albedo_pair pair = ppmi_albedo_directional(albedo, layers->coat_roughness, cosine);
-    return layers->coat * pair_value(pair, coat_f0, 1.0f);
+    if (is_coat_mirror(layers)) return layers->coat * ppmi_schlick(layers->coat_f0, w.z);
+    const ppmi_albedo_pair pair =
+        layers->coat_anisotropy > 0.0f
+            ? ppmi_lobe_wide_albedo(albedo->lobes, layers->coat_roughness, layers->coat_anisotropy,
+                                    w)
+            : ppmi_albedo_directional(albedo, layers->coat_roughness, w.z);
+    return layers->coat * pair_value(pair, layers->coat_f0, 1.0f);
 }
 
+/* What the fibres stop; they may absorb a part of it. */
 static float sheen_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
                           float cosine)
 {
-    const float color = vec3_max_component(layers->sheen_color);
-    if (!(color > 0.0f)) return 0.0f;
-    return ppmi_min(color * ppmi_lobe_sheen_albedo(albedo->lobes, layers->sheen_roughness, cosine),
+    const float share = layers->sheen_share;
+    if (!(share > 0.0f)) return 0.0f;
+    return ppmi_min(share * ppmi_lobe_sheen_albedo(albedo->lobes, layers->sheen_roughness, cosine),
                     1.0f);
 }
 
-/* T: what coat and sheen leave over, by a direction's cosines to the coat's normal and the base's.
- */
+/* T: what coat and sheen leave over, by a direction in the coat's frame and its cosine to the
+ * base's normal. */
 static float left_over(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                       float cos_coat, float cosine)
+                       ppmi_vec3 w_coat, float cosine)
 {
-    return (1.0f - coat_albedo(layers, albedo, cos_coat)) *
+    return (1.0f - coat_albedo(layers, albedo, w_coat)) *
            (1.0f - sheen_albedo(layers, albedo, cosine));
-}
-
-static float cos_to_coat(const ppmi_bsdf_layers *layers, ppmi_vec3 w)
-{
-    return layers->coat > 0.0f ? fabsf(vec3_dot(layers->coat_normal, w)) : 1.0f;
 }
 
 static bool has_top(const ppmi_bsdf_layers *layers)
 {
-    return layers->coat > 0.0f || !vec3_is_black(layers->sheen_color);
+    return layers->coat > 0.0f || layers->sheen_share > 0.0f;
 }
 
-float ppmi_layers_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
+static float passing_to(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
     if (!has_top(layers)) return 1.0f;
-    return ppmi_min(layers->passing,
-                    left_over(layers, albedo, cos_to_coat(layers, wi), fabsf(wi.z)));
+    return ppmi_min(layers->passing, left_over(layers, albedo, in_coat(layers, wi), fabsf(wi.z)));
 }
 
-/* Albedo of coat and sheen together: the sheen lies under the coat. */
-static float top_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                        float cos_coat, float cosine)
+/* What fuzz above the coat leaves to it, in both directions. */
+static float passing_fuzz(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float cos_i)
 {
-    const float coat = coat_albedo(layers, albedo, cos_coat);
-    const float sheen = sheen_albedo(layers, albedo, cosine);
-    if (coat == 0.0f || sheen == 0.0f) return coat + sheen;
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    if (!layers->sheen_is_on_top) return 1.0f;
+    return 1.0f - ppmi_max(sheen_albedo(layers, albedo, bsdf->wo.z),
+                           sheen_albedo(layers, albedo, fabsf(cos_i)));
+}
+
+/* Of a lobe of one width that spreads as far on average as two: by their mean square. */
+static float mean_roughness(ppmi_vec2 alpha)
+{
+    return sqrtf(sqrtf(0.5f * (ppmi_sqr(alpha.x) + ppmi_sqr(alpha.y))));
+}
+
+/* Albedos of coat and sheen; the one that lies below has only what the other leaves it. */
+typedef struct top_albedos {
+    float coat, sheen;
+} top_albedos;
+
+static float sheen_under_coat(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
+                              float coat, float cosine)
+{
     float nodes[PPMI_LOBE_NODES];
     ppmi_lobe_sheen_nodes(albedo->lobes, layers->sheen_roughness, cosine, nodes);
     float passing = 0.0f;
     for (int k = 0; k < PPMI_LOBE_NODES; k++)
-        passing += ppmi_min(1.0f - coat, 1.0f - coat_albedo(layers, albedo, nodes[k]));
-    return coat + sheen * passing / PPMI_LOBE_NODES;
+        passing += ppmi_min(1.0f - coat, 1.0f - coat_albedo(layers, albedo, at_cosine(nodes[k])));
+    return passing / PPMI_LOBE_NODES;
+}
+
+static float coat_under_sheen(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
+                              float sheen, float cosine)
+{
+    if (is_coat_mirror(layers)) return 1.0f - sheen;
+    ppmi_lobe_nodes nodes;
+    ppmi_lobe_ggx_nodes(albedo->lobes, mean_roughness(layers->coat_alpha), cosine, &nodes);
+    float passing = 0.0f;
+    for (int k = 0; k < PPMI_LOBE_NODES; k++)
+        passing += ppmi_min(1.0f - sheen, 1.0f - sheen_albedo(layers, albedo, nodes.cos_i[k]));
+    return passing / PPMI_LOBE_NODES;
+}
+
+static top_albedos top_albedos_at(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
+                                  ppmi_vec3 w_coat, float cosine)
+{
+    top_albedos top = {coat_albedo(layers, albedo, w_coat), sheen_albedo(layers, albedo, cosine)};
+    if (top.coat == 0.0f || top.sheen == 0.0f) return top;
+    if (layers->sheen_is_on_top) {
+        top.coat *= coat_under_sheen(layers, albedo, top.sheen, cosine);
+    } else {
+        top.sheen *= sheen_under_coat(layers, albedo, top.coat, cosine);
+    }
+    return top;
+}
+
+/* ---- the coat's colour ----------------------------------------------------------------------- */
+
+/* What the coat leaves of light on a way through it of this length by a straight one: of the share
+ * that is coated. */
+static ppmi_vec3 tint_of(const ppmi_bsdf_layers *layers, float path)
+{
+    return vec3_lerp(vec3_splat(1.0f), ppmi_coat_transmittance(layers->coat_tint, path),
+                     layers->coat);
+}
+
+/* Of light that goes from wo to the base and on to a direction of this cosine to the coat's normal
+ * or back. */
+static ppmi_vec3 base_tint(const ppmi_bsdf *bsdf, float path_in)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
+    const float path_out = ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z);
+    const ppmi_vec3 passed = vec3_mul(
+        ppmi_coat_transmittance(layers->coat_tint, path_in + path_out), layers->coat_darkened);
+    return vec3_lerp(vec3_splat(1.0f), passed, layers->coat);
+}
+
+static ppmi_vec3 base_tint_to(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
+    return base_tint(bsdf, ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z));
+}
+
+/* The sheen lies below the coat, without reflections to and fro. */
+static ppmi_vec3 sheen_tint_to(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
+    return tint_of(layers, ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z) +
+                               ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z));
+}
+
+/* Through the glass light crosses the coat once. */
+ppmi_vec3 ppmi_layers_glass_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                    ppmi_vec3 wi)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    const ppmi_vec3 passing = vec3_splat(passing_to(bsdf, albedo, wi));
+    if (!layers->is_coat_tinted) return passing;
+    const float path = ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z) +
+                       ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z);
+    return vec3_mul(passing, tint_of(layers, wi.z > 0.0f ? path : 0.5f * path));
 }
 
 /* ---- the base's speculars -------------------------------------------------------------------- */
@@ -107,7 +226,11 @@ static ppmi_vec3 film_at(const ppmi_bsdf_layers *layers, ppmi_vec3 f0, float cos
 static ppmi_vec3 spec_fresnel(const ppmi_bsdf *bsdf, float cos_h)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const ppmi_vec3 plain = vec3_lerp(bsdf->f0, bsdf->f90, ppmi_schlick_weight(cos_h));
+    ppmi_vec3 plain = vec3_lerp(bsdf->f0, bsdf->f90, ppmi_schlick_weight(cos_h));
+    if (layers->has_metal_edge) {
+        plain = vec3_mad(plain, layers->metal_edge, -ppmi_f82_shape(cos_h));
+        plain = vec3(ppmi_max(plain.x, 0.0f), ppmi_max(plain.y, 0.0f), ppmi_max(plain.z, 0.0f));
+    }
     if (!(layers->film > 0.0f)) return plain;
     ppmi_vec3 film = vec3_splat(0.0f);
     if (layers->metallic < 1.0f) {
@@ -141,9 +264,7 @@ static int spec_nodes(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, fl
         nodes->cos_i[0] = nodes->cos_h[0] = cosine;
         return 1;
     }
-    /* two widths: their mean square spreads as far on average */
-    const float alpha2 = 0.5f * (ppmi_sqr(layers->alpha.x) + ppmi_sqr(layers->alpha.y));
-    ppmi_lobe_ggx_nodes(albedo->lobes, sqrtf(sqrtf(alpha2)), cosine, nodes);
+    ppmi_lobe_ggx_nodes(albedo->lobes, mean_roughness(layers->alpha), cosine, nodes);
     return PPMI_LOBE_NODES;
 }
 
@@ -157,7 +278,7 @@ static float film_albedo(const ppmi_bsdf_layers *layers, ppmi_albedo_pair pair,
     float beyond = 0.0f;
     for (int k = 0; k < count; k++) {
         const float c = nodes->cos_h[k];
-        beyond += vec3_max_component(film_at(layers, layers->film_f0, c)) - schlick(f0, c);
+        beyond += vec3_max_component(film_at(layers, layers->film_f0, c)) - ppmi_schlick(f0, c);
     }
     return pair_value(pair, f0, 1.0f) + (pair.a + pair.b) * beyond / (float)count;
 }
@@ -169,7 +290,7 @@ static float spec_passing(const ppmi_bsdf_layers *layers, const ppmi_albedo_tabl
     float passing = 0.0f;
     for (int k = 0; k < count; k++) {
         const float c = nodes->cos_i[k];
-        passing += ppmi_min(here, left_over(layers, albedo, c, c));
+        passing += ppmi_min(here, left_over(layers, albedo, at_cosine(c), c));
     }
     return passing / (float)count;
 }
@@ -185,13 +306,15 @@ typedef struct leftovers {
     float dielectric, metal; /* 1 - E_tot over each kind of base; of the metal as if white */
 } leftovers;
 
-/* w is on the upper side. */
+/* w is on the upper side; w_coat: the same in the coat's frame. */
 static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                              float cos_coat, ppmi_vec3 w)
+                              ppmi_vec3 w_coat, ppmi_vec3 w)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
     const bool is_covered = has_top(layers);
-    const float top = is_covered ? top_albedo(layers, albedo, cos_coat, w.z) : 0.0f;
+    const top_albedos parts =
+        is_covered ? top_albedos_at(layers, albedo, w_coat, w.z) : (top_albedos){0.0f, 0.0f};
+    const float top = parts.coat + parts.sheen;
     leftovers left = {1.0f - top, 1.0f - top};
     if (!has_speculars(bsdf)) return left;
     const ppmi_albedo_pair pair = spec_pair(bsdf, albedo, w);
@@ -206,7 +329,7 @@ static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
             dielectric += (film - dielectric) * layers->film;
         }
         if (is_covered) {
-            const float here = left_over(layers, albedo, cos_coat, w.z);
+            const float here = left_over(layers, albedo, w_coat, w.z);
             const float passing = spec_passing(layers, albedo, here, &nodes, count);
             dielectric *= passing;
             metal *= passing;
@@ -224,14 +347,15 @@ static leftovers average_leftovers(const ppmi_bsdf *bsdf, const ppmi_albedo_tabl
     static const float roots[5] = {0.046910f, 0.230765f, 0.5f, 0.769235f, 0.953090f};
     static const float weights[5] = {0.118463f, 0.239314f, 0.284444f, 0.239314f, 0.118463f};
     static const float azimuths[2][2] = {{0.92388f, 0.38268f}, {0.38268f, 0.92388f}};
-    const int turns = bsdf->layers.anisotropy > 0.0f ? 2 : 1;
+    const bool is_turned = bsdf->layers.anisotropy > 0.0f || bsdf->layers.coat_anisotropy > 0.0f;
+    const int turns = is_turned ? 2 : 1;
     leftovers mean = {0.0f, 0.0f};
     for (int i = 0; i < 5; i++) {
         const float t = roots[i], cosine = t * t, sine = sqrtf(1.0f - cosine * cosine);
         const float weight = weights[i] * 4.0f * t * t * t / (float)turns;
         for (int k = 0; k < turns; k++) {
             const ppmi_vec3 w = vec3(sine * azimuths[k][0], sine * azimuths[k][1], cosine);
-            const leftovers left = leftovers_at(bsdf, albedo, cosine, w);
+            const leftovers left = leftovers_at(bsdf, albedo, w, w);
             mean.dielectric += weight * left.dielectric;
             mean.metal += weight * left.metal;
         }
@@ -260,9 +384,9 @@ static void set_layers(ppmi_bsdf *bsdf, const ppmi_layer_point *point,
     const float narrow = ppmi_max(bsdf->alpha, PPMI_SMOOTH_ALPHA);
     const bool is_wide = point->anisotropy > 0.0f;
     bsdf->layers = (ppmi_bsdf_layers){
-        .coat = point->coat,
-        .coat_roughness = point->coat_roughness,
         .sheen_color = point->sheen_color,
+        .sheen_share = point->sheen_share,
+        .sheen_is_on_top = point->sheen_is_on_top,
         .sheen_roughness = ppmi_max(point->sheen_roughness, PPMI_SHEEN_LEAST_ROUGHNESS),
         .passing = 1.0f,
         .film = point->film_nm > 0.0f ? point->film : 0.0f,
@@ -281,6 +405,63 @@ static void set_layers(ppmi_bsdf *bsdf, const ppmi_layer_point *point,
     }
 }
 
+static void set_coat(ppmi_bsdf *bsdf, const ppmi_layer_point *point)
+{
+    ppmi_bsdf_layers *layers = &bsdf->layers;
+    const float alpha = ppmi_sqr(point->coat_roughness);
+    layers->coat = point->coat;
+    layers->coat_f0 = ppmi_coat_f0(point->coat_ior);
+    layers->coat_ior = point->coat_ior;
+    layers->coat_alpha = (ppmi_vec2){alpha, alpha};
+    layers->coat_roughness = point->coat_roughness;
+    layers->coat_tangent = ppmi_frame_to_local(&bsdf->frame, point->coat_tangent);
+    if (!(point->coat_anisotropy > 0.0f)) return;
+    const float narrow = ppmi_max(alpha, PPMI_SMOOTH_ALPHA);
+    const float wide = ppmi_wide_alpha(narrow, point->coat_anisotropy);
+    layers->coat_alpha = (ppmi_vec2){wide, narrow};
+    layers->coat_anisotropy = point->coat_anisotropy;
+}
+
+/* Of the diffuse base and of a metal, by its roughness: a smooth one gets back what its own
+ * direction says, on average over all. */
+static float darkened(const ppmi_bsdf_layers *layers, float roughness, float color)
+{
+    const float diffuse = ppmi_coat_internal_diffuse(layers->coat_ior);
+    const float smooth = layers->coat_f0 + (1.0f - layers->coat_f0) / 21.0f;
+    const float metal = smooth + (diffuse - smooth) * roughness;
+    return (1.0f - layers->metallic) * ppmi_coat_darkening(color, diffuse) +
+           layers->metallic * ppmi_coat_darkening(color, metal);
+}
+
+static void set_coat_color(ppmi_bsdf *bsdf, const ppmi_material_point *point)
+{
+    ppmi_bsdf_layers *layers = &bsdf->layers;
+    const ppmi_vec3 white = vec3_splat(1.0f), color = point->base_color;
+    layers->coat_tint = point->layers.coat_tint;
+    layers->coat_darkened = white;
+    if (point->layers.coat_darkening > 0.0f) {
+        const ppmi_vec3 all = vec3(darkened(layers, bsdf->roughness, color.x),
+                                   darkened(layers, bsdf->roughness, color.y),
+                                   darkened(layers, bsdf->roughness, color.z));
+        layers->coat_darkened = vec3_lerp(white, all, point->layers.coat_darkening);
+    }
+    const ppmi_vec3 both = vec3_mul(layers->coat_tint, layers->coat_darkened);
+    layers->is_coat_tinted =
+        layers->coat > 0.0f && (both.x < 1.0f || both.y < 1.0f || both.z < 1.0f);
+}
+
+static void set_metal_edge(ppmi_bsdf *bsdf, const ppmi_material_point *point)
+{
+    ppmi_bsdf_layers *layers = &bsdf->layers;
+    layers->has_metal_edge = point->edge_color && layers->metallic > 0.0f;
+    if (!layers->has_metal_edge) return;
+    const float weight = point->specular, share = layers->opaque * layers->metallic;
+    const ppmi_vec3 f0 = point->base_color, edge = point->specular_color;
+    layers->metal_edge = vec3(share * ppmi_f82_coefficient(f0.x, ppmi_min(edge.x * weight, 1.0f)),
+                              share * ppmi_f82_coefficient(f0.y, ppmi_min(edge.y * weight, 1.0f)),
+                              share * ppmi_f82_coefficient(f0.z, ppmi_min(edge.z * weight, 1.0f)));
+}
+
 /* Kulla and Conty: F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)), of a metal's colour. */
 static float multiple_scattering(float color, float e_average)
 {
@@ -292,12 +473,13 @@ static void set_diffuse(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                         const ppmi_material_point *point, const leftovers *average)
 {
     ppmi_bsdf_layers *layers = &bsdf->layers;
-    const leftovers left = leftovers_at(bsdf, albedo, cos_to_coat(layers, bsdf->wo), bsdf->wo);
+    const leftovers left = leftovers_at(bsdf, albedo, in_coat(layers, bsdf->wo), bsdf->wo);
     const float dielectric = layers->opaque * (1.0f - layers->metallic) * left.dielectric /
                              ppmi_max(average->dielectric, 1e-4f);
     const float through = point->layers.through;
     bsdf->coat_base = vec3_scale(point->base_color, dielectric * (1.0f - through));
     layers->through = vec3_scale(point->layers.through_color, dielectric * through);
+    layers->through_color = point->layers.through_color;
     if (!(layers->metallic > 0.0f) || !(average->metal > 1e-4f)) return;
     const ppmi_albedo_pair pair = ppmi_albedo_average(albedo, bsdf->roughness);
     const float e = pair.a + pair.b;
@@ -316,10 +498,12 @@ static void set_masks(ppmi_bsdf *bsdf)
     if (ppmi_min(layers->alpha.x, layers->alpha.y) >= gather_alpha) {
         bsdf->gather_lobes |= speculars;
     }
-    if (coat_alpha(layers) >= gather_alpha) bsdf->gather_lobes |= PPMI_LOBE_COAT;
+    if (ppmi_min(layers->coat_alpha.x, layers->coat_alpha.y) >= gather_alpha) {
+        bsdf->gather_lobes |= PPMI_LOBE_COAT;
+    }
     bsdf->delta_lobes = 0;
     if (is_mirror(layers)) bsdf->delta_lobes |= speculars;
-    if (coat_alpha(layers) < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_COAT;
+    if (is_coat_mirror(layers)) bsdf->delta_lobes |= PPMI_LOBE_COAT;
     if (bsdf->glass_alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_GLASS;
 }
 
@@ -333,6 +517,13 @@ static float spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
     return pair_value(pair, vec3_max_component(bsdf->f0), vec3_max_component(bsdf->f90));
 }
 
+/* What the fibres reflect of what they stop, by the strongest channel. */
+static float sheen_whiteness(const ppmi_bsdf_layers *layers)
+{
+    const float share = layers->sheen_share;
+    return share > 0.0f ? vec3_max_component(layers->sheen_color) / share : 0.0f;
+}
+
 void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                       const ppmi_material_point *point, const ppmi_base_shares *shares,
                       ppmi_vec3 coat_normal, ppmi_lobe_albedos *out_albedos)
@@ -342,12 +533,16 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     set_layers(bsdf, &point->layers, shares);
     if (layers->anisotropy > 0.0f) turn_frame(bsdf, point->layers.tangent);
     layers->coat_normal = ppmi_frame_to_local(&bsdf->frame, coat_normal);
-    const float cos_coat = cos_to_coat(layers, bsdf->wo), cosine = bsdf->wo.z;
-    if (has_top(layers)) layers->passing = left_over(layers, albedo, cos_coat, cosine);
+    set_coat(bsdf, &point->layers);
+    set_coat_color(bsdf, point);
+    set_metal_edge(bsdf, point);
+    const ppmi_vec3 w_coat = in_coat(layers, bsdf->wo);
+    const float cosine = bsdf->wo.z;
+    if (has_top(layers)) layers->passing = left_over(layers, albedo, w_coat, cosine);
     const leftovers average = average_leftovers(bsdf, albedo);
     set_diffuse(bsdf, albedo, point, &average);
     set_masks(bsdf);
-    const float coat = coat_albedo(layers, albedo, cos_coat);
+    const top_albedos top = top_albedos_at(layers, albedo, w_coat, cosine);
     const float speculars = layers->passing * spec_albedo(bsdf, albedo);
     *out_albedos = (ppmi_lobe_albedos){{
         vec3_max_component(bsdf->coat_base) * average.dielectric +
@@ -355,8 +550,8 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
         speculars * (1.0f - layers->retro),
         bsdf->glass_weight * layers->passing,
         0.0f,
-        coat,
-        sheen_albedo(layers, albedo, cosine) * (1.0f - coat),
+        top.coat,
+        top.sheen * sheen_whiteness(layers),
         vec3_max_component(layers->through) * average.dielectric,
         speculars * layers->retro,
     }};
@@ -378,6 +573,16 @@ static ppmi_vec3 film_beyond(const ppmi_bsdf *bsdf, ppmi_vec3 f0, ppmi_vec3 f90,
     return vec3_scale(sum, 1.0f / (float)count);
 }
 
+/* What metals lack of Schlick's curve at their edges, over the lobe. */
+static ppmi_vec3 edge_albedo(const ppmi_bsdf *bsdf, ppmi_albedo_pair pair,
+                             const ppmi_lobe_nodes *nodes, int count)
+{
+    float shape = 0.0f;
+    for (int k = 0; k < count; k++)
+        shape += ppmi_f82_shape(nodes->cos_h[k]);
+    return vec3_scale(bsdf->layers.metal_edge, (pair.a + pair.b) * shape / (float)count);
+}
+
 static ppmi_vec3 colored_spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
@@ -388,37 +593,52 @@ static ppmi_vec3 colored_spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_ta
     const ppmi_vec3 f90 =
         has_film ? vec3_lerp(bsdf->f90, vec3_splat(layers->opaque), layers->film) : bsdf->f90;
     ppmi_vec3 sum = vec3_mad(vec3_scale(f0, pair.a), f90, pair.b);
-    if (!has_film && !is_covered) return sum;
+    if (!has_film && !is_covered && !layers->has_metal_edge) return sum;
     ppmi_lobe_nodes nodes;
     const int count = spec_nodes(bsdf, albedo, bsdf->wo.z, &nodes);
     if (has_film) {
         const ppmi_vec3 beyond = film_beyond(bsdf, f0, f90, &nodes, count);
         sum = vec3_mad(sum, beyond, pair.a + pair.b);
+    } else if (layers->has_metal_edge) {
+        sum = vec3_sub(sum, edge_albedo(bsdf, pair, &nodes, count));
     }
     if (!is_covered) return sum;
+    sum = vec3_mul(sum, base_tint_to(bsdf, bsdf->wo));
     return vec3_scale(sum, spec_passing(layers, albedo, layers->passing, &nodes, count));
+}
+
+static ppmi_vec3 diffuse_albedo(const ppmi_bsdf *bsdf, const leftovers *average, uint32_t mask)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    ppmi_vec3 sum = vec3_splat(0.0f);
+    if (mask & PPMI_LOBE_WIDE) {
+        sum = vec3_scale(ppmi_bsdf_diffuse_albedo(bsdf, bsdf->coat_base, bsdf->tint),
+                         average->dielectric);
+        sum = vec3_mad(sum, bsdf->metal_base, average->metal);
+    }
+    if (mask & PPMI_LOBE_THROUGH) {
+        sum = vec3_mad(sum, ppmi_bsdf_diffuse_albedo(bsdf, layers->through, layers->through_color),
+                       average->dielectric);
+    }
+    return vec3_mul(sum, base_tint(bsdf, ppmi_coat_mean_path(layers->coat_ior)));
 }
 
 ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const float cos_coat = cos_to_coat(layers, bsdf->wo);
-    const float coat = coat_albedo(layers, albedo, cos_coat);
-    ppmi_vec3 sum = vec3_splat(mask & PPMI_LOBE_COAT ? coat : 0.0f);
+    const top_albedos top = top_albedos_at(layers, albedo, in_coat(layers, bsdf->wo), bsdf->wo.z);
+    ppmi_vec3 sum = vec3_splat(mask & PPMI_LOBE_COAT ? top.coat : 0.0f);
     if (mask & (PPMI_LOBE_WIDE | PPMI_LOBE_THROUGH)) {
         const leftovers average = average_leftovers(bsdf, albedo);
-        if (mask & PPMI_LOBE_WIDE) {
-            sum = vec3_mad(sum, bsdf->coat_base, average.dielectric);
-            sum = vec3_mad(sum, bsdf->metal_base, average.metal);
-        }
-        if (mask & PPMI_LOBE_THROUGH) sum = vec3_mad(sum, layers->through, average.dielectric);
+        sum = vec3_add(sum, diffuse_albedo(bsdf, &average, mask));
     }
     const float share = (mask & PPMI_LOBE_SPEC ? 1.0f - layers->retro : 0.0f) +
                         (mask & PPMI_LOBE_RETRO ? layers->retro : 0.0f);
     if (share > 0.0f) sum = vec3_mad(sum, colored_spec_albedo(bsdf, albedo), share);
-    if (mask & PPMI_LOBE_SHEEN && !vec3_is_black(layers->sheen_color)) {
-        const float sheen = top_albedo(layers, albedo, cos_coat, bsdf->wo.z) - coat;
-        sum = vec3_mad(sum, layers->sheen_color, sheen / vec3_max_component(layers->sheen_color));
+    if (mask & PPMI_LOBE_SHEEN && layers->sheen_share > 0.0f) {
+        const ppmi_vec3 sheen = vec3_scale(layers->sheen_color, top.sheen / layers->sheen_share);
+        const bool is_below = !layers->sheen_is_on_top;
+        sum = vec3_add(sum, is_below ? vec3_mul(sheen, sheen_tint_to(bsdf, bsdf->wo)) : sheen);
     }
     return sum;
 }
@@ -465,7 +685,8 @@ static ppmi_vec3 speculars_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *
         f = vec3_mad(f, spec_eval(bsdf, spec_origin(bsdf, lobe), wi),
                      spec_share(&bsdf->layers, lobe));
     }
-    return vec3_scale(f, ppmi_layers_passing(bsdf, albedo, wi));
+    f = vec3_mul(f, base_tint_to(bsdf, wi));
+    return vec3_scale(f, passing_to(bsdf, albedo, wi));
 }
 
 static ppmi_vec3 sheen_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
@@ -476,26 +697,39 @@ static ppmi_vec3 sheen_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
                                ppmi_sheen_lambda(wi.z, alpha));
     f *= ppmi_min(ppmi_lobe_sheen_bound(albedo->lobes, layers->sheen_roughness, bsdf->wo.z),
                   ppmi_lobe_sheen_bound(albedo->lobes, layers->sheen_roughness, wi.z));
-    if (layers->coat > 0.0f) {
-        f *= 1.0f - ppmi_max(coat_albedo(layers, albedo, cos_to_coat(layers, bsdf->wo)),
-                             coat_albedo(layers, albedo, cos_to_coat(layers, wi)));
+    if (layers->sheen_is_on_top || !(layers->coat > 0.0f)) {
+        return vec3_scale(layers->sheen_color, f);
     }
-    return vec3_scale(layers->sheen_color, f);
+    f *= 1.0f - ppmi_max(coat_albedo(layers, albedo, in_coat(layers, bsdf->wo)),
+                         coat_albedo(layers, albedo, in_coat(layers, wi)));
+    return vec3_scale(vec3_mul(layers->sheen_color, sheen_tint_to(bsdf, wi)), f);
+}
+
+/* The diffuse base to one side or the other. */
+static ppmi_vec3 diffuse_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
+{
+    const ppmi_bsdf_layers *layers = &bsdf->layers;
+    const ppmi_vec3 upper = vec3(wi.x, wi.y, fabsf(wi.z));
+    const leftovers left = leftovers_at(bsdf, albedo, in_coat(layers, wi), upper);
+    ppmi_vec3 f;
+    if (wi.z > 0.0f) {
+        f = vec3_scale(ppmi_bsdf_diffuse(bsdf, bsdf->coat_base, bsdf->tint, upper),
+                       left.dielectric);
+        f = vec3_mad(f, bsdf->metal_base, left.metal);
+    } else {
+        f = vec3_scale(ppmi_bsdf_diffuse(bsdf, layers->through, layers->through_color, upper),
+                       left.dielectric);
+    }
+    return vec3_scale(vec3_mul(f, base_tint_to(bsdf, wi)), PPMI_INV_PI);
 }
 
 ppmi_vec3 ppmi_layers_eval_base(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                                 ppmi_vec3 wi, uint32_t mask)
 {
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
     const bool is_reflection = wi.z > 0.0f;
-    const ppmi_vec3 upper = vec3(wi.x, wi.y, fabsf(wi.z));
     ppmi_vec3 f = vec3_splat(0.0f);
     if (mask & (is_reflection ? PPMI_LOBE_WIDE : PPMI_LOBE_THROUGH)) {
-        const leftovers left = leftovers_at(bsdf, albedo, cos_to_coat(layers, wi), upper);
-        f = is_reflection ? vec3_mad(vec3_scale(bsdf->coat_base, left.dielectric), bsdf->metal_base,
-                                     left.metal)
-                          : vec3_scale(layers->through, left.dielectric);
-        f = vec3_scale(f, PPMI_INV_PI);
+        f = diffuse_eval(bsdf, albedo, wi);
     }
     if (!is_reflection) return f;
     if (mask & (PPMI_LOBE_SPEC | PPMI_LOBE_RETRO)) {
@@ -531,27 +765,29 @@ static float coat_cosine_ratio(const ppmi_bsdf *bsdf, ppmi_vec3 wi, float coat_o
     return coat / ppmi_max(base, 1e-4f);
 }
 
-ppmi_vec3 ppmi_layers_eval_coat(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport)
+ppmi_vec3 ppmi_layers_eval_coat(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                ppmi_vec3 wi, ppmi_transport transport)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const ppmi_frame frame = ppmi_frame_from_normal(layers->coat_normal);
+    const ppmi_frame frame = coat_frame(layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo), i = ppmi_frame_to_local(&frame, wi);
     if (o.z <= 0.0f || i.z <= 0.0f) return vec3_splat(0.0f);
-    const float alpha = coat_alpha(layers);
+    const ppmi_vec2 alpha = layers->coat_alpha;
     const ppmi_vec3 h = vec3_normalize(vec3_add(o, i));
-    const float dg = ppmi_ggx_d(alpha, h) * ppmi_ggx_g2(alpha, o.z, i.z);
-    const float f = layers->coat * schlick(coat_f0, vec3_dot(i, h)) * dg / (4.0f * o.z * i.z);
+    const float dg = ppmi_ggx2_d(alpha, h) * ppmi_ggx2_g2(alpha, o, i);
+    const float share = layers->coat * passing_fuzz(bsdf, albedo, wi.z);
+    const float f = share * ppmi_schlick(layers->coat_f0, vec3_dot(i, h)) * dg / (4.0f * o.z * i.z);
     return vec3_splat(f * coat_cosine_ratio(bsdf, wi, o.z, i.z, transport));
 }
 
 float ppmi_layers_pdf_coat(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
-    const ppmi_frame frame = ppmi_frame_from_normal(bsdf->layers.coat_normal);
+    const ppmi_frame frame = coat_frame(&bsdf->layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo), i = ppmi_frame_to_local(&frame, wi);
     const ppmi_vec3 h = vec3_normalize(vec3_add(o, i));
     const float cos_oh = vec3_dot(o, h);
     if (o.z <= 0.0f || i.z <= 0.0f || cos_oh <= 0.0f) return 0.0f;
-    return ppmi_ggx_visible_d(coat_alpha(&bsdf->layers), o, h) / (4.0f * cos_oh);
+    return ppmi_ggx2_visible_d(bsdf->layers.coat_alpha, o, h) / (4.0f * cos_oh);
 }
 
 /* ---- sampling -------------------------------------------------------------------------------- */
@@ -563,11 +799,11 @@ static ppmi_vec3 reflect_about(ppmi_vec3 wo, ppmi_vec3 h)
 
 static bool draw_coat(const ppmi_bsdf *bsdf, float u, float v, ppmi_vec3 *wi)
 {
-    const ppmi_frame frame = ppmi_frame_from_normal(bsdf->layers.coat_normal);
+    const ppmi_frame frame = coat_frame(&bsdf->layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo);
     if (o.z <= 0.0f) return false;
     const ppmi_vec3 i =
-        reflect_about(o, ppmi_ggx_sample_visible(coat_alpha(&bsdf->layers), o, u, v));
+        reflect_about(o, ppmi_ggx2_sample_visible(bsdf->layers.coat_alpha, o, u, v));
     *wi = ppmi_frame_to_world(&frame, i);
     return i.z > 0.0f;
 }
@@ -601,7 +837,8 @@ bool ppmi_layers_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, 
         const float cosine = vec3_dot(bsdf->wo, layers->coat_normal);
         if (cosine <= 0.0f) return false;
         *out_wi = reflect_about(bsdf->wo, layers->coat_normal);
-        float weight = layers->coat * schlick(coat_f0, cosine);
+        float weight = layers->coat * ppmi_schlick(layers->coat_f0, cosine);
+        weight *= passing_fuzz(bsdf, albedo, out_wi->z);
         /* power: by the base's cosines, as for the rough coat; the coat's cancel */
         if (transport == PPMI_TRANSPORT_POWER) weight *= fabsf(out_wi->z) / bsdf->wo.z;
         *out_weight = vec3_splat(weight);
@@ -609,8 +846,9 @@ bool ppmi_layers_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, 
     }
     const ppmi_vec3 wo = spec_origin(bsdf, lobe);
     *out_wi = vec3(-wo.x, -wo.y, wo.z);
-    const float share = spec_share(layers, lobe) * ppmi_layers_passing(bsdf, albedo, *out_wi);
-    *out_weight = vec3_scale(spec_fresnel(bsdf, wo.z), share);
+    const float share = spec_share(layers, lobe) * passing_to(bsdf, albedo, *out_wi);
+    *out_weight =
+        vec3_scale(vec3_mul(spec_fresnel(bsdf, wo.z), base_tint_to(bsdf, *out_wi)), share);
     return true;
 }
 

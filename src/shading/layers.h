@@ -24,9 +24,9 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                       const ppmi_material_point *point, const ppmi_base_shares *shares,
                       ppmi_vec3 coat_normal, ppmi_lobe_albedos *out_albedos);
 
-/* What coat and sheen leave of light that goes from wo to wi or back by way of a base that is not
- * diffuse. */
-float ppmi_layers_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi);
+/* What coat and sheen leave of light that goes from wo to wi or back by way of the glass. */
+ppmi_vec3 ppmi_layers_glass_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                    ppmi_vec3 wi);
 
 /* Albedo for light that goes to wo, of the lobes in mask but GLASS, by channel. */
 ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask);
@@ -38,7 +38,8 @@ float ppmi_layers_pdf_base(const ppmi_bsdf *bsdf, ppmi_vec3 wi, uint32_t mask);
 
 /* f of the rough coat times its normal's cosine by the base's, so that callers find the coat's
  * cosine in the product (see ppmi_transport for which direction's). */
-ppmi_vec3 ppmi_layers_eval_coat(const ppmi_bsdf *bsdf, ppmi_vec3 wi, ppmi_transport transport);
+ppmi_vec3 ppmi_layers_eval_coat(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
+                                ppmi_vec3 wi, ppmi_transport transport);
 float ppmi_layers_pdf_coat(const ppmi_bsdf *bsdf, ppmi_vec3 wi);
 
 /* Draws from one lobe that is not delta. False when nothing leaves. */

@@ -1,6 +1,7 @@
 /* Material evaluation: factors times textures. */
 #include "shading/material.h"
 
+#include "shading/coat.h"
 #include "shading/microfacet.h"
 
 static ppmi_texel lookup(const ppm_scene *scene, const ppmi_surface *surface,
@@ -51,30 +52,36 @@ static float metallic(const ppm_material_desc *desc, ppmi_texel texel)
 
 /* ---- layers ---------------------------------------------------------------------------------- */
 
+typedef struct anisotropy_source {
+    float strength, rotation_rad;
+    const ppm_texture *texture;
+    const ppm_texture *normal_texture; /* of the surface whose highlight it is */
+} anisotropy_source;
+
 /* Strength and direction (KHR_materials_anisotropy): the texture's vector, turned, in the tangent
- * space of the texture, else along the tangent of the normal map's coordinates. */
-static void evaluate_anisotropy(const ppm_scene *scene, const ppmi_surface *surface,
-                                ppmi_layer_point *layers)
+ * space of the texture, else along the tangent of the normal map's coordinates. Returns the
+ * strength; 0 where there is no direction. */
+static float evaluate_anisotropy(const ppm_scene *scene, const ppmi_surface *surface,
+                                 const anisotropy_source *source, ppmi_vec3 *out_tangent)
 {
-    const ppm_material_desc *desc = &surface->material->desc;
-    const ppm_texture *texture = &desc->anisotropy_texture;
-    const ppm_texture mesh_axes = {.uv_set = desc->normal_texture.uv_set};
-    const ppm_texture *axes = texture->image > 0 ? texture : &mesh_axes;
+    const ppm_texture mesh_axes = {.uv_set = source->normal_texture->uv_set};
+    const bool is_mapped = source->texture->image > 0;
+    const ppm_texture *axes = is_mapped ? source->texture : &mesh_axes;
     ppmi_vec3 tangent, bitangent;
-    layers->anisotropy = 0.0f;
-    if (!(desc->anisotropy > 0.0f) || !ppmi_surface_tangents(surface, axes, &tangent, &bitangent)) {
-        return;
+    *out_tangent = vec3_splat(0.0f);
+    if (!(source->strength > 0.0f) || !ppmi_surface_tangents(surface, axes, &tangent, &bitangent)) {
+        return 0.0f;
     }
-    float x = 1.0f, y = 0.0f, strength = desc->anisotropy;
-    if (texture->image > 0) {
-        const ppmi_texel texel = lookup(scene, surface, texture);
+    float x = 1.0f, y = 0.0f, strength = source->strength;
+    if (is_mapped) {
+        const ppmi_texel texel = lookup(scene, surface, source->texture);
         x = 2.0f * texel.r - 1.0f;
         y = 2.0f * texel.g - 1.0f;
         strength *= texel.b;
     }
-    const float c = cosf(desc->anisotropy_rotation_rad), s = sinf(desc->anisotropy_rotation_rad);
-    layers->tangent = vec3_mad(vec3_scale(tangent, c * x - s * y), bitangent, s * x + c * y);
-    layers->anisotropy = unit(strength);
+    const float c = cosf(source->rotation_rad), s = sinf(source->rotation_rad);
+    *out_tangent = vec3_mad(vec3_scale(tangent, c * x - s * y), bitangent, s * x + c * y);
+    return unit(strength);
 }
 
 static void evaluate_film(const ppm_scene *scene, const ppmi_surface *surface,
@@ -89,32 +96,72 @@ static void evaluate_film(const ppm_scene *scene, const ppmi_surface *surface,
     layers->film_nm = ppmi_max(least + (desc->iridescence_thickness_max_nm - least) * t, 0.0f);
 }
 
+static ppmi_vec3 color_at(const ppm_scene *scene, const ppmi_surface *surface,
+                          const float factor[3], const ppm_texture *texture)
+{
+    const ppmi_texel texel = lookup(scene, surface, texture);
+    return vec3(unit(factor[0] * texel.r), unit(factor[1] * texel.g), unit(factor[2] * texel.b));
+}
+
+static void evaluate_coat(const ppm_scene *scene, const ppmi_surface *surface,
+                          ppmi_layer_point *layers)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    layers->coat = unit(desc->clearcoat * lookup(scene, surface, &desc->clearcoat_texture).r);
+    layers->coat_roughness = unit(desc->clearcoat_roughness *
+                                  lookup(scene, surface, &desc->clearcoat_roughness_texture).g);
+    layers->coat_normal = mapped_normal(scene, surface, &desc->clearcoat_normal_texture,
+                                        desc->clearcoat_normal_scale);
+    layers->coat_tint = color_at(scene, surface, desc->coat_color, &desc->coat_color_texture);
+    layers->coat_ior = desc->coat_ior;
+    layers->coat_darkening = desc->coat_darkening;
+    const anisotropy_source source = {desc->coat_anisotropy, desc->coat_anisotropy_rotation_rad,
+                                      &desc->coat_anisotropy_texture,
+                                      &desc->clearcoat_normal_texture};
+    layers->coat_anisotropy = evaluate_anisotropy(scene, surface, &source, &layers->coat_tangent);
+}
+
+/* KHR_materials_fuzz says its share and its colour apart; the colour of a sheen is both. */
+static void evaluate_sheen(const ppm_scene *scene, const ppmi_surface *surface,
+                           ppmi_layer_point *layers)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    layers->sheen_color = color_at(scene, surface, desc->sheen_color, &desc->sheen_color_texture);
+    layers->sheen_share = vec3_max_component(layers->sheen_color);
+    layers->sheen_roughness =
+        unit(desc->sheen_roughness * lookup(scene, surface, &desc->sheen_roughness_texture).a);
+    layers->sheen_is_on_top = desc->fuzz > 0.0f;
+    if (!layers->sheen_is_on_top) return;
+    layers->sheen_share = unit(desc->fuzz * lookup(scene, surface, &desc->fuzz_texture).r);
+    layers->sheen_color = vec3_scale(layers->sheen_color, layers->sheen_share);
+}
+
 __attribute__((noinline)) static void
 evaluate_layers(const ppm_scene *scene, const ppmi_surface *surface, ppmi_layer_point *layers)
 {
     const ppm_material_desc *desc = &surface->material->desc;
-    const ppmi_texel sheen = lookup(scene, surface, &desc->sheen_color_texture);
-    const ppmi_texel through = lookup(scene, surface, &desc->diffuse_transmission_color_texture);
     *layers = (ppmi_layer_point){
-        .coat = unit(desc->clearcoat * lookup(scene, surface, &desc->clearcoat_texture).r),
-        .coat_roughness = unit(desc->clearcoat_roughness *
-                               lookup(scene, surface, &desc->clearcoat_roughness_texture).g),
-        .coat_normal = mapped_normal(scene, surface, &desc->clearcoat_normal_texture,
-                                     desc->clearcoat_normal_scale),
-        .sheen_color = {unit(desc->sheen_color[0] * sheen.r), unit(desc->sheen_color[1] * sheen.g),
-                        unit(desc->sheen_color[2] * sheen.b)},
-        .sheen_roughness =
-            unit(desc->sheen_roughness * lookup(scene, surface, &desc->sheen_roughness_texture).a),
         .through = unit(desc->diffuse_transmission *
                         lookup(scene, surface, &desc->diffuse_transmission_texture).a),
-        .through_color = {unit(desc->diffuse_transmission_color[0] * through.r),
-                          unit(desc->diffuse_transmission_color[1] * through.g),
-                          unit(desc->diffuse_transmission_color[2] * through.b)},
+        .through_color = color_at(scene, surface, desc->diffuse_transmission_color,
+                                  &desc->diffuse_transmission_color_texture),
         .retro =
             unit(desc->retroreflection * lookup(scene, surface, &desc->retroreflection_texture).r),
     };
+    evaluate_coat(scene, surface, layers);
+    evaluate_sheen(scene, surface, layers);
     if (desc->iridescence > 0.0f) evaluate_film(scene, surface, layers);
-    evaluate_anisotropy(scene, surface, layers);
+    const anisotropy_source source = {desc->anisotropy, desc->anisotropy_rotation_rad,
+                                      &desc->anisotropy_texture, &desc->normal_texture};
+    layers->anisotropy = evaluate_anisotropy(scene, surface, &source, &layers->tangent);
+}
+
+static float diffuse_roughness(const ppm_scene *scene, const ppmi_surface *surface)
+{
+    const ppm_material_desc *desc = &surface->material->desc;
+    if (!(desc->diffuse_roughness > 0.0f)) return 0.0f;
+    return unit(desc->diffuse_roughness *
+                lookup(scene, surface, &desc->diffuse_roughness_texture).r);
 }
 
 void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
@@ -136,6 +183,8 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
     out_point->specular_color = vec3(ppmi_max(desc->specular_color[0] * specular_color.r, 0.0f),
                                      ppmi_max(desc->specular_color[1] * specular_color.g, 0.0f),
                                      ppmi_max(desc->specular_color[2] * specular_color.b, 0.0f));
+    out_point->edge_color = desc->specular_is_edge_color != 0;
+    out_point->diffuse_roughness = diffuse_roughness(scene, surface);
     out_point->transmission =
         unit(desc->transmission * lookup(scene, surface, &desc->transmission_texture).r);
     out_point->is_thin = desc->transmission_kind == PPM_TRANSMISSION_THIN;
@@ -148,8 +197,9 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
 float ppmi_material_coat_passing(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo)
 {
     const ppm_material_desc *desc = &surface->material->desc;
+    if (desc->emission_is_above_coat) return 1.0f;
     const float coat = unit(desc->clearcoat * lookup(scene, surface, &desc->clearcoat_texture).r);
     const ppmi_vec3 normal = mapped_normal(scene, surface, &desc->clearcoat_normal_texture,
                                            desc->clearcoat_normal_scale);
-    return 1.0f - coat * ppmi_coat_fresnel(fabsf(vec3_dot(normal, wo)));
+    return 1.0f - coat * ppmi_schlick(ppmi_coat_f0(desc->coat_ior), fabsf(vec3_dot(normal, wo)));
 }

@@ -8,8 +8,14 @@
 typedef struct ppmi_layer_point {
     float coat, coat_roughness;
     ppmi_vec3 coat_normal; /* front side */
-    ppmi_vec3 sheen_color;
+    ppmi_vec3 coat_tint;   /* of light that has gone through it twice, straight */
+    float coat_ior, coat_darkening;
+    float coat_anisotropy;
+    ppmi_vec3 coat_tangent; /* direction of its anisotropy; 0: none */
+    ppmi_vec3 sheen_color;  /* what the fibres reflect: colour times share */
+    float sheen_share;      /* of the surface that the fibres cover, whatever their colour */
     float sheen_roughness;
+    bool sheen_is_on_top;            /* of the coat: fuzz */
     float film, film_ior, film_nm;   /* iridescence: share, index, thickness */
     const ppmi_working_space *space; /* whose channels a film's colours are; NULL: Rec.709 */
     float anisotropy;
@@ -25,7 +31,9 @@ typedef struct ppmi_material_point {
     float roughness; /* perceptual: GGX alpha is its square */
     float ior;
     float specular;           /* F90 of the dielectric */
-    ppmi_vec3 specular_color; /* scales its F0 */
+    ppmi_vec3 specular_color; /* scales its F0, or as edge_color says */
+    bool edge_color;          /* EXT_materials_specular_edge_color */
+    float diffuse_roughness;
     float transmission;
     bool is_thin;
     float relative_index; /* of refraction, beyond the surface by this side; 0: from ior, with
@@ -39,7 +47,8 @@ void ppmi_material_evaluate(const ppm_scene *scene, const ppmi_surface *surface,
                             ppmi_material_point *out_point);
 
 /* What a clearcoat leaves of the emission below it in direction wo (unit, away from the surface):
- * 1 - clearcoat * F(N.wo) with the coat's normal (KHR_materials_clearcoat). */
+ * 1 - clearcoat * F(N.wo) with the coat's normal (KHR_materials_clearcoat). Emission lies above a
+ * coat of KHR_materials_coat. */
 float ppmi_material_coat_passing(const ppm_scene *scene, const ppmi_surface *surface, ppmi_vec3 wo);
 
 #endif

@@ -89,12 +89,26 @@ static inline float ppmi_schlick_weight(float cos_theta)
     return m * m * m * m * m;
 }
 
-#define PPMI_COAT_F0 0.04f /* of a clearcoat: index 1.5 */
-
-/* A clearcoat's Fresnel term. */
-static inline float ppmi_coat_fresnel(float cos_theta)
+/* Schlick's curve up to 1. */
+static inline float ppmi_schlick(float f0, float cos_theta)
 {
-    return PPMI_COAT_F0 + (1.0f - PPMI_COAT_F0) * ppmi_schlick_weight(cos_theta);
+    return f0 + (1.0f - f0) * ppmi_schlick_weight(cos_theta);
+}
+
+/* Of metals with another colour at their edges: F = schlick - coefficient * shape, where the shape
+ * is that of Lazanyi and Szirmay-Kalos 2005 and the coefficient makes F that of Schlick times edge
+ * at 82 degrees, a cosine of 1/7 (Kutz, Hasan and Edmondson 2021, "Novel aspects of the Adobe
+ * Standard Material"). */
+static inline float ppmi_f82_shape(float cos_theta)
+{
+    const float m = ppmi_clampf(1.0f - cos_theta, 0.0f, 1.0f);
+    return cos_theta * m * m * m * m * m * m;
+}
+
+static inline float ppmi_f82_coefficient(float f0, float edge)
+{
+    const float cosine = 1.0f / 7.0f;
+    return ppmi_schlick(f0, cosine) * (1.0f - edge) / ppmi_f82_shape(cosine);
 }
 
 /* Reflection at a facet. */

@@ -25,7 +25,15 @@ static void layers_have_the_extensions_defaults_where_they_are_absent(void **sta
     assert_values(m->diffuse_transmission_color, 3, (const float[]){1, 1, 1});
     assert_values(m->multiscatter_color, 3, (const float[]){0, 0, 0});
     assert_values(&m->retroreflection, 1, (const float[]){0});
+    assert_values(&m->diffuse_roughness, 1, (const float[]){0});
+    assert_values(&m->coat_ior, 1, (const float[]){1.5f});
+    assert_values(m->coat_color, 3, (const float[]){1, 1, 1});
+    assert_values(&m->coat_darkening, 1, (const float[]){0});
+    assert_values(&m->coat_anisotropy, 1, (const float[]){0});
+    assert_values(&m->fuzz, 1, (const float[]){0});
     assert_int_equal(m->roughness_is_glossiness, 0);
+    assert_int_equal(m->specular_is_edge_color, 0);
+    assert_int_equal(m->emission_is_above_coat, 0);
 }
 
 static void clearcoat_and_sheen_are_read(void **state)
@@ -66,6 +74,65 @@ static void retroreflection_is_read_under_both_its_names(void **state)
     m = import_material(
         f, "x", "'extensions':{'EXT_materials_retroreflection':{'retroreflectionFactor':0.25}}");
     assert_values(&m->retroreflection, 1, (const float[]){0.25f});
+}
+
+static void a_coat_goes_before_a_clearcoat(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m = import_material(
+        f, "x",
+        "'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':0.5},"
+        "'KHR_materials_coat':{'coatFactor':0.75,'coatRoughnessFactor':0.25,'coatIor':1.75,"
+        "'coatColorFactor':[0.1,0.2,0.3],'coatDarkeningFactor':0.5,'coatAnisotropyStrength':0.625,"
+        "'coatAnisotropyRotation':1.5,'coatNormalTexture':{'index':0,'scale':2}}}");
+    assert_values(&m->clearcoat, 1, (const float[]){0.75f});
+    assert_values(&m->clearcoat_roughness, 1, (const float[]){0.25f});
+    assert_values(&m->clearcoat_normal_scale, 1, (const float[]){2});
+    assert_values(&m->coat_ior, 1, (const float[]){1.75f});
+    assert_values(m->coat_color, 3, (const float[]){0.1f, 0.2f, 0.3f});
+    assert_values(&m->coat_darkening, 1, (const float[]){0.5f});
+    assert_values(&m->coat_anisotropy, 1, (const float[]){0.625f});
+    assert_values(&m->coat_anisotropy_rotation_rad, 1, (const float[]){1.5f});
+    assert_int_equal(m->emission_is_above_coat, 1);
+    m = import_material(f, "x", "'extensions':{'KHR_materials_coat':{'coatFactor':1}}");
+    assert_values(&m->coat_darkening, 1, (const float[]){1});
+    assert_values(&m->coat_ior, 1, (const float[]){1.5f});
+    m = import_material(f, "x",
+                        "'extensions':{'KHR_materials_coat':{'coatFactor':1,'coatIor':0.5}}");
+    assert_values(&m->coat_ior, 1, (const float[]){1});
+    assert_gltf_logged(f, 'W', "KHR_materials_coat.coatIor is less than 1");
+}
+
+static void fuzz_goes_before_sheen(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m =
+        import_material(f, "x",
+                        "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1]},"
+                        "'KHR_materials_fuzz':{'fuzzFactor':0.5,'fuzzColorFactor':[0,0,0.25]}}");
+    assert_values(&m->fuzz, 1, (const float[]){0.5f});
+    assert_values(m->sheen_color, 3, (const float[]){0, 0, 0.25f});
+    assert_values(&m->sheen_roughness, 1, (const float[]){0.5f});
+    m = import_material(f, "x",
+                        "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1]},"
+                        "'KHR_materials_fuzz':{'fuzzColorFactor':[1,1,1]}}");
+    assert_values(&m->fuzz, 1, (const float[]){0});
+    assert_values(m->sheen_color, 3, (const float[]){0, 0, 0});
+}
+
+static void edge_colours_are_asked_for_inside_the_specular(void **state)
+{
+    gltf_fixture *f = *state;
+    const ppm_material_desc *m = import_material(
+        f, "x",
+        "'extensions':{'KHR_materials_specular':{'specularColorFactor':[1,0.5,0.25],'extensions':{"
+        "'EXT_materials_specular_edge_color':{'specularEdgeColorEnabled':true}}}}");
+    assert_int_equal(m->specular_is_edge_color, 1);
+    assert_values(m->specular_color, 3, (const float[]){1, 0.5f, 0.25f});
+    m = import_material(f, "x",
+                        "'extensions':{'KHR_materials_specular':{'extensions':{"
+                        "'EXT_materials_specular_edge_color':{}}}}");
+    assert_int_equal(m->specular_is_edge_color, 0);
 }
 
 #define SCATTER(color, more)                                                                       \
@@ -282,6 +349,14 @@ static void values_out_of_range_are_brought_into_it_with_a_warning(void **state)
          AT(anisotropy_rotation_rad), 0},
         {"retroreflection", "'retroreflectionFactor':3", "retroreflectionFactor is brought",
          AT(retroreflection), 1},
+        {"diffuse_roughness", "'diffuseRoughnessFactor':3", "diffuseRoughnessFactor is brought",
+         AT(diffuse_roughness), 1},
+        {"coat", "'coatFactor':3", "coatFactor is brought", AT(clearcoat), 1},
+        {"coat", "'coatColorFactor':[3,0,0]", "coatColorFactor is brought", AT(coat_color), 1},
+        {"coat", "'coatDarkeningFactor':-1", "coatDarkeningFactor is brought", AT(coat_darkening),
+         0},
+        {"coat", "'coatIor':1e9", "coatIor is brought", AT(coat_ior), 1000},
+        {"fuzz", "'fuzzFactor':3", "fuzzFactor is brought", AT(fuzz), 1},
         {"diffuse_transmission", "'diffuseTransmissionFactor':3", "diffuseTransmissionFactor is",
          AT(diffuse_transmission), 1},
         {"diffuse_transmission",
@@ -345,6 +420,16 @@ static const struct {
     SLOT("pbrSpecularGlossiness", "", "diffuseTexture", base_color_texture),
     SLOT("pbrSpecularGlossiness", "", "specularGlossinessTexture", specular_color_texture),
     SLOT("pbrSpecularGlossiness", "", "specularGlossinessTexture", metallic_roughness_texture),
+    SLOT("diffuse_roughness", "'diffuseRoughnessFactor':1,", "diffuseRoughnessTexture",
+         diffuse_roughness_texture),
+    SLOT("coat", "'coatFactor':1,", "coatTexture", clearcoat_texture),
+    SLOT("coat", "'coatFactor':1,", "coatRoughnessTexture", clearcoat_roughness_texture),
+    SLOT("coat", "'coatFactor':1,", "coatNormalTexture", clearcoat_normal_texture),
+    SLOT("coat", "'coatFactor':1,", "coatColorTexture", coat_color_texture),
+    SLOT("coat", "'coatFactor':1,", "coatAnisotropyTexture", coat_anisotropy_texture),
+    SLOT("fuzz", "'fuzzFactor':1,", "fuzzTexture", fuzz_texture),
+    SLOT("fuzz", "'fuzzFactor':1,", "fuzzColorTexture", sheen_color_texture),
+    SLOT("fuzz", "'fuzzFactor':1,", "fuzzRoughnessTexture", sheen_roughness_texture),
     SLOT("retroreflection", "'retroreflectionFactor':1,", "retroreflectionTexture",
          retroreflection_texture),
     {"'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
@@ -427,6 +512,9 @@ int main(void)
         TEST(clearcoat_and_sheen_are_read),
         TEST(iridescence_and_anisotropy_are_read),
         TEST(retroreflection_is_read_under_both_its_names),
+        TEST(a_coat_goes_before_a_clearcoat),
+        TEST(fuzz_goes_before_sheen),
+        TEST(edge_colours_are_asked_for_inside_the_specular),
         TEST(scattering_is_read_under_both_names_of_its_colour),
         TEST(a_texture_of_the_medium_gives_its_mean_colour),
         TEST(scatter_without_strength_changes_nothing),

@@ -125,7 +125,12 @@ static void factors_out_of_range_are_refused(void **state)
                                    &desc.diffuse_transmission,
                                    &desc.diffuse_transmission_color[2],
                                    &desc.multiscatter_color[0],
-                                   &desc.retroreflection};
+                                   &desc.retroreflection,
+                                   &desc.diffuse_roughness,
+                                   &desc.coat_color[1],
+                                   &desc.coat_darkening,
+                                   &desc.coat_anisotropy,
+                                   &desc.fuzz};
     for (size_t f = 0; f < sizeof unit_factors / sizeof unit_factors[0]; f++) {
         for (size_t b = 0; b < 4; b++) {
             *unit_factors[f] = bad[b];
@@ -193,7 +198,11 @@ static void textures_must_exist(void **state)
                                   &desc.anisotropy_texture,
                                   &desc.diffuse_transmission_texture,
                                   &desc.diffuse_transmission_color_texture,
-                                  &desc.retroreflection_texture};
+                                  &desc.retroreflection_texture,
+                                  &desc.diffuse_roughness_texture,
+                                  &desc.coat_color_texture,
+                                  &desc.coat_anisotropy_texture,
+                                  &desc.fuzz_texture};
     const float pixel[3] = {1.0f, 1.0f, 1.0f};
     const ppm_image_id image = image_rgb(test.scene, 1, 1, pixel);
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++) {

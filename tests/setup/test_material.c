@@ -132,7 +132,12 @@ static void each_field_is_set_by_its_name(void **state)
                     "\"anisotropy_rotation_rad\": 0.17, \"diffuse_transmission\": 0.18,"
                     "\"diffuse_transmission_color\": 0.19, \"multiscatter_color\": 0.2,"
                     "\"scatter_anisotropy_g\": 0.21, \"retroreflection\": 0.22,"
-                    "\"roughness_is_glossiness\": true, \"emission_takes_vertex_color\": true")),
+                    "\"roughness_is_glossiness\": true, \"emission_takes_vertex_color\": true,"
+                    "\"diffuse_roughness\": 0.23, \"specular_is_edge_color\": true,"
+                    "\"coat_ior\": 1.24, \"coat_color\": [0.25, 0.26, 0.27],"
+                    "\"coat_darkening\": 0.28, \"coat_anisotropy\": 0.29,"
+                    "\"coat_anisotropy_rotation_rad\": 0.3, \"emission_is_above_coat\": true,"
+                    "\"fuzz\": 0.31")),
         PPM_STATUS_OK);
     memset(&expected, 0, sizeof expected);
     expected = (ppm_material_desc){.size = sizeof expected,
@@ -169,12 +174,20 @@ static void each_field_is_set_by_its_name(void **state)
                                    .scatter_anisotropy_g = 0.21f,
                                    .retroreflection = 0.22f,
                                    .roughness_is_glossiness = 1,
-                                   .emission_takes_vertex_color = 1};
+                                   .emission_takes_vertex_color = 1,
+                                   .diffuse_roughness = 0.23f,
+                                   .specular_is_edge_color = 1,
+                                   .coat_ior = 1.24f,
+                                   .coat_color = {0.25f, 0.26f, 0.27f},
+                                   .coat_darkening = 0.28f,
+                                   .coat_anisotropy = 0.29f,
+                                   .coat_anisotropy_rotation_rad = 0.3f,
+                                   .emission_is_above_coat = 1,
+                                   .fuzz = 0.31f};
     ppm_material_desc found = material(f->scene, 4);
     found.name = NULL;
     assert_memory_equal(&found, &expected,
-                        offsetof(ppm_material_desc, emission_takes_vertex_color) +
-                            sizeof expected.emission_takes_vertex_color);
+                        offsetof(ppm_material_desc, fuzz_texture) + sizeof expected.fuzz_texture);
 }
 
 static void an_overridden_material_renders_as_by_calls(void **state)

@@ -113,7 +113,7 @@ static void no_bsdf_makes_energy(void **state)
     family_check(&test.family);
 }
 
-static void check_kind_is_white(energy_test *test, int kind)
+static void check_kind_is_white_within(energy_test *test, int kind, double error)
 {
     static const float roughnesses[] = {0.0f, 0.05f, 0.1f, 0.3f, 0.5f, 0.8f, 1.0f};
     static const float cosines[] = {1.0f, 0.7f, 0.3f, 0.08f};
@@ -124,9 +124,14 @@ static void check_kind_is_white(energy_test *test, int kind)
             bsdf_make_case(kind, roughnesses[r], cosines[c], &item, &bsdf);
             const test_mean mean = albedo_of(&bsdf, TEST_EFFORT(100000), test->seed++);
             mean_check_power(&mean, 0.005);
-            family_add_mean(&test->family, &mean, 1.0, table_error, "%s", item.name);
+            family_add_mean(&test->family, &mean, 1.0, error, "%s", item.name);
         }
     }
+}
+
+static void check_kind_is_white(energy_test *test, int kind)
+{
+    check_kind_is_white_within(test, kind, table_error);
 }
 
 static void white_plastic_and_metal_return_all_light(void **state)
@@ -135,17 +140,22 @@ static void white_plastic_and_metal_return_all_light(void **state)
     energy_test test = {.seed = 1000};
     check_kind_is_white(&test, KIND_WHITE_PLASTIC);
     check_kind_is_white(&test, KIND_WHITE_METAL);
+    check_kind_is_white(&test, KIND_WHITE_ROUGH_LAMBERT);
+    /* a rough base sends light back where it came from: at a grazing angle more than its share
+     * meets the coat there, which the weights by cosines do not know */
+    check_kind_is_white_within(&test, KIND_WHITE_ROUGH_PLASTIC, 0.02);
     family_check(&test.family);
 }
 
 static void white_layers_return_all_light(void **state)
 {
     (void)state;
-    static const int kinds[] = {KIND_WHITE_COATED_PLASTIC,     KIND_WHITE_COATED_METAL,
-                                KIND_WHITE_ROUGH_COATED_METAL, KIND_WHITE_SHEEN,
-                                KIND_WHITE_SMOOTH_SHEEN,       KIND_WHITE_COATED_SHEEN_METAL,
-                                KIND_WHITE_BRUSHED_METAL,      KIND_WHITE_LEAF,
-                                KIND_WHITE_RETRO_METAL,        KIND_WHITE_EVERYTHING};
+    static const int kinds[] = {
+        KIND_WHITE_COATED_PLASTIC, KIND_WHITE_COATED_METAL, KIND_WHITE_ROUGH_COATED_METAL,
+        KIND_WHITE_SHEEN,          KIND_WHITE_SMOOTH_SHEEN, KIND_WHITE_COATED_SHEEN_METAL,
+        KIND_WHITE_BRUSHED_METAL,  KIND_WHITE_LEAF,         KIND_WHITE_RETRO_METAL,
+        KIND_WHITE_EVERYTHING,     KIND_WHITE_BRUSHED_COAT, KIND_WHITE_FUZZ,
+        KIND_WHITE_FUZZ_ON_COAT};
     energy_test test = {.seed = 3000};
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         check_kind_is_white(&test, kinds[k]);

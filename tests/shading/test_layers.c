@@ -9,6 +9,7 @@
 
 #include "shading/bsdf_cases.h"
 #include "shading/iridescence.h"
+#include "shading/rough_diffuse.h"
 #include "shading/sheen.h"
 #include "support/near.h"
 #include "support/statistics.h"
@@ -22,13 +23,14 @@ static double schlick(double f0, double cosine)
 
 static ppmi_material_point lambert(float r, float g, float b)
 {
-    return (ppmi_material_point){.base_color = {r, g, b},
-                                 .roughness = 0.5f,
-                                 .ior = 1.5f,
-                                 .specular_color = {1.0f, 1.0f, 1.0f},
-                                 .ns = up,
-                                 .is_layered = true,
-                                 .layers = {.coat_normal = up}};
+    return (ppmi_material_point){
+        .base_color = {r, g, b},
+        .roughness = 0.5f,
+        .ior = 1.5f,
+        .specular_color = {1.0f, 1.0f, 1.0f},
+        .ns = up,
+        .is_layered = true,
+        .layers = {.coat_normal = up, .coat_ior = 1.5f, .coat_tint = {1.0f, 1.0f, 1.0f}}};
 }
 
 static void make(const ppmi_material_point *point, ppmi_vec3 wo, ppmi_bsdf *bsdf)
@@ -149,7 +151,133 @@ static void a_coat_at_an_angle_is_reciprocal(void **state)
     }
 }
 
-/* ---- sheen ----------------------------------------------------------------------------------- */
+static ppmi_material_point coated_mirror(float r, float g, float b)
+{
+    ppmi_material_point point = lambert(r, g, b);
+    point.metallic = 1.0f;
+    point.roughness = 0.0f;
+    point.layers.coat = 1.0f;
+    return point;
+}
+
+/* Weights of base and coat, both mirrors, at a cosine. */
+static ppmi_vec3 mirror_weight(const ppmi_material_point *point, float cosine, int branch)
+{
+    ppmi_bsdf bsdf;
+    make(point, vec3(sqrtf(1.0f - cosine * cosine), 0, cosine), &bsdf);
+    ppmi_bsdf_sample samples[PPMI_BSDF_MAX_BRANCHES];
+    const uint32_t count =
+        ppmi_bsdf_branches(&bsdf, bsdf_albedo(), PPMI_LOBE_ALL, PPMI_TRANSPORT_RADIANCE, samples);
+    assert_true((uint32_t)branch < count);
+    return samples[branch].weight;
+}
+
+static void a_coat_tints_by_the_length_of_the_way_through_it(void **state)
+{
+    (void)state;
+    ppmi_material_point point = coated_mirror(0.9f, 0.6f, 0.3f);
+    point.layers.coat_ior = 1.6f;
+    point.layers.coat_tint = vec3(1.0f, 0.5f, 0.2f);
+    const double f0 = pow(0.6 / 2.6, 2.0);
+    for (float c = 0.1f; c <= 1.0f; c += 0.3f) {
+        const ppmi_vec3 base = mirror_weight(&point, c, 0), coat = mirror_weight(&point, c, 1);
+        const double sine = sqrt(1.0 - (double)c * (double)c);
+        const double way = 1.0 / cos(asin(sine / 1.6)), passing = 1.0 - schlick(f0, (double)c);
+        assert_near(coat.x, schlick(f0, (double)c), 1e-4);
+        assert_near(base.x, passing * schlick(0.9, (double)c), 1e-4);
+        assert_near(base.y, passing * schlick(0.6, (double)c) * pow(0.5, way), 1e-4);
+        assert_near(base.z, passing * schlick(0.3, (double)c) * pow(0.2, way), 1e-4);
+    }
+}
+
+/* The share of diffuse light that is reflected, from outside: Fresnel's equations by quadrature. */
+static double diffuse_fresnel(double index)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 4000; i++) {
+        const double c = (i + 0.5) / 4000.0, t = sqrt(1.0 - (1.0 - c * c) / (index * index));
+        const double s = (c - index * t) / (c + index * t), p = (index * c - t) / (index * c + t);
+        sum += 2.0 * c * 0.5 * (s * s + p * p) / 4000.0;
+    }
+    return sum;
+}
+
+static void a_coat_darkens_by_what_goes_to_and_fro_below_it(void **state)
+{
+    (void)state;
+    for (double index = 1.1; index < 2.5; index += 0.4) {
+        ppmi_material_point point = lambert(0.8f, 0.4f, 0.0f);
+        point.layers.coat = 1.0f;
+        point.layers.coat_ior = (float)index;
+        const ppmi_vec3 wo = vec3(0.4f, 0.1f, 0.7f), wi = vec3(-0.2f, 0.5f, 0.6f);
+        ppmi_bsdf bsdf;
+        make(&point, wo, &bsdf);
+        const ppmi_vec3 before = value(&bsdf, wi, PPMI_LOBE_WIDE);
+        point.layers.coat_darkening = 1.0f;
+        make(&point, wo, &bsdf);
+        const ppmi_vec3 after = value(&bsdf, wi, PPMI_LOBE_WIDE);
+        const double back = 1.0 - (1.0 - diffuse_fresnel(index)) / (index * index);
+        assert_near(after.x / before.x, (1.0 - back) / (1.0 - 0.8 * back), 0.01);
+        assert_near(after.y / before.y, (1.0 - back) / (1.0 - 0.4 * back), 0.01);
+    }
+}
+
+static void a_brushed_coat_stretches_its_highlight(void **state)
+{
+    (void)state;
+    ppmi_material_point point = lambert(0, 0, 0);
+    point.layers.coat = 1.0f;
+    point.layers.coat_roughness = 0.5f;
+    point.layers.coat_anisotropy = 0.8f;
+    point.layers.coat_tangent = vec3(1, 1, 0);
+    ppmi_bsdf bsdf;
+    make(&point, up, &bsdf);
+    const float along = value(&bsdf, vec3(0.4f, 0.4f, 1), PPMI_LOBE_COAT).y;
+    const float across = value(&bsdf, vec3(0.4f, -0.4f, 1), PPMI_LOBE_COAT).y;
+    assert_true(along > 2.0f * across && across > 0.0f);
+}
+
+/* ---- sheen and fuzz -------------------------------------------------------------------------- */
+
+/* Black fibres only take; what they leave is grey, whether of the coat or of the base. */
+static void dark_fuzz_takes_what_it_stops(void **state)
+{
+    (void)state;
+    ppmi_material_point point = coated_mirror(0.9f, 0.6f, 0.3f);
+    const ppmi_material_point bare = point;
+    point.layers.sheen_share = 0.7f;
+    point.layers.sheen_roughness = 0.5f;
+    point.layers.sheen_is_on_top = true;
+    for (float c = 0.1f; c <= 1.0f; c += 0.3f) {
+        const float left = 1.0f - 0.7f * ppmi_lobe_sheen_albedo(bsdf_albedo()->lobes, 0.5f, c);
+        assert_true(left < 1.0f);
+        for (int branch = 0; branch < 2; branch++) {
+            const ppmi_vec3 with = mirror_weight(&point, c, branch);
+            const ppmi_vec3 without = mirror_weight(&bare, c, branch);
+            assert_near(with.x, left * without.x, 1e-4);
+            assert_near(with.z, left * without.z, 1e-4);
+        }
+    }
+}
+
+static void fuzz_lies_above_the_coat(void **state)
+{
+    (void)state;
+    ppmi_material_point point = lambert(0, 0, 0);
+    point.layers.sheen_color = vec3(0.6f, 0.6f, 0.6f);
+    point.layers.sheen_share = 0.6f;
+    point.layers.sheen_roughness = 0.5f;
+    const ppmi_vec3 wo = vec3(0.9f, 0.0f, 0.2f), wi = vec3(-0.5f, 0.6f, 0.3f);
+    ppmi_bsdf bsdf;
+    make(&point, wo, &bsdf);
+    const float bare = value(&bsdf, wi, PPMI_LOBE_SHEEN).y;
+    point.layers.coat = 1.0f;
+    make(&point, wo, &bsdf);
+    assert_true(value(&bsdf, wi, PPMI_LOBE_SHEEN).y < 0.9f * bare);
+    point.layers.sheen_is_on_top = true;
+    make(&point, wo, &bsdf);
+    assert_near(value(&bsdf, wi, PPMI_LOBE_SHEEN).y, bare, 1e-6f * bare);
+}
 
 static void the_table_of_the_sheen_is_its_integral(void **state)
 {
@@ -178,6 +306,87 @@ static void the_table_of_the_sheen_is_its_integral(void **state)
         }
     }
     family_check(&family);
+}
+
+/* ---- edge colours ---------------------------------------------------------------------------- */
+
+/* At 82 degrees a metal reflects what Schlick says times its edge's colour. */
+static void a_metals_edge_has_its_colour(void **state)
+{
+    (void)state;
+    ppmi_material_point point = lambert(0.9f, 0.6f, 0.3f);
+    point.metallic = 1.0f;
+    point.roughness = 0.0f;
+    point.specular = 1.0f;
+    point.specular_color = vec3(1.0f, 0.4f, 0.7f);
+    point.edge_color = true;
+    const ppmi_vec3 edge = mirror_weight(&point, 1.0f / 7.0f, 0);
+    assert_near(edge.x, schlick(0.9, 1.0 / 7.0), 1e-4);
+    assert_near(edge.y, 0.4 * schlick(0.6, 1.0 / 7.0), 1e-4);
+    assert_near(edge.z, 0.7 * schlick(0.3, 1.0 / 7.0), 1e-4);
+    const ppmi_vec3 straight = mirror_weight(&point, 1.0f, 0);
+    assert_near(straight.y, 0.6, 1e-5);
+}
+
+/* A dielectric's whole reflection is tinted, and the base does not see the tint. */
+static void a_dielectrics_reflection_has_the_colour_throughout(void **state)
+{
+    (void)state;
+    ppmi_material_point point = lambert(0.5f, 0.5f, 0.5f);
+    point.specular = 0.5f;
+    point.roughness = 0.0f;
+    point.is_layered = false;
+    const ppmi_vec3 wi = vec3(-0.3f, 0.4f, 0.5f);
+    ppmi_bsdf bsdf;
+    make(&point, vec3(0.4f, 0, 0.3f), &bsdf);
+    const float base = value(&bsdf, wi, PPMI_LOBE_WIDE).y;
+    point.specular_color = vec3(0.2f, 1.0f, 0.4f);
+    point.edge_color = true;
+    make(&point, vec3(0.4f, 0, 0.3f), &bsdf);
+    assert_near(value(&bsdf, wi, PPMI_LOBE_WIDE).y, base, 1e-6f);
+    for (float c = 0.1f; c <= 1.0f; c += 0.3f) {
+        const ppmi_vec3 weight = mirror_weight(&point, c, 0);
+        assert_near(weight.y, 0.5 * schlick(0.04, (double)c), 1e-4);
+        assert_near(weight.x, 0.2 * 0.5 * schlick(0.04, (double)c), 1e-4);
+    }
+}
+
+/* ---- rough diffuse --------------------------------------------------------------------------- */
+
+/* Single scattering is Fujii's form of Oren and Nayar's; integrated anew. */
+static void what_a_rough_base_loses_is_its_integral(void **state)
+{
+    (void)state;
+    for (float roughness = 0.2f; roughness <= 1.0f; roughness += 0.4f) {
+        const double a = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * M_PI)) * (double)roughness);
+        for (float c = 0.1f; c <= 1.0f; c += 0.3f) {
+            const double cos_o = (double)c, sin_o = sqrt(1.0 - cos_o * cos_o);
+            double returned = 0.0;
+            const int n = 400;
+            for (int i = 0; i < n * n; i++) {
+                const double cos_i = sqrt((i / n + 0.5) / n), phi = 2.0 * M_PI * (i % n + 0.5) / n;
+                const double s = sin_o * sqrt(1.0 - cos_i * cos_i) * cos(phi);
+                const double t = s > 0.0 ? fmax(cos_o, cos_i) : 1.0;
+                returned += a * (1.0 + (double)roughness * s / t) / (n * n);
+            }
+            assert_near(ppmi_rough_diffuse_lost(roughness, c), 1.0 - returned, 2e-4);
+        }
+    }
+}
+
+static void a_rough_base_sends_light_back(void **state)
+{
+    (void)state;
+    ppmi_material_point point = lambert(0.5f, 0.5f, 0.5f);
+    point.is_layered = false;
+    const ppmi_vec3 wo = vec3(0.8f, 0, 0.4f);
+    ppmi_bsdf smooth, rough;
+    make(&point, wo, &smooth);
+    point.diffuse_roughness = 1.0f;
+    make(&point, wo, &rough);
+    const float lambert_value = value(&smooth, wo, PPMI_LOBE_ALL).y;
+    assert_true(value(&rough, wo, PPMI_LOBE_ALL).y > 1.2f * lambert_value);
+    assert_true(value(&rough, vec3(-0.8f, 0, 0.4f), PPMI_LOBE_ALL).y < 0.8f * lambert_value);
 }
 
 /* ---- iridescence ----------------------------------------------------------------------------- */
@@ -324,7 +533,16 @@ int main(void)
         cmocka_unit_test(a_smooth_coat_takes_from_a_mirror_what_it_reflects),
         cmocka_unit_test(the_coat_has_a_normal_of_its_own),
         cmocka_unit_test(a_coat_at_an_angle_is_reciprocal),
+        cmocka_unit_test(a_coat_tints_by_the_length_of_the_way_through_it),
+        cmocka_unit_test(a_coat_darkens_by_what_goes_to_and_fro_below_it),
+        cmocka_unit_test(a_brushed_coat_stretches_its_highlight),
+        cmocka_unit_test(dark_fuzz_takes_what_it_stops),
+        cmocka_unit_test(fuzz_lies_above_the_coat),
         cmocka_unit_test(the_table_of_the_sheen_is_its_integral),
+        cmocka_unit_test(a_metals_edge_has_its_colour),
+        cmocka_unit_test(a_dielectrics_reflection_has_the_colour_throughout),
+        cmocka_unit_test(what_a_rough_base_loses_is_its_integral),
+        cmocka_unit_test(a_rough_base_sends_light_back),
         cmocka_unit_test(a_film_of_no_thickness_leaves_the_base),
         cmocka_unit_test(a_film_reflects_what_its_spectrum_says),
         cmocka_unit_test(a_films_colour_moves_to_blue_when_seen_askew),

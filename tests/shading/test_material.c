@@ -317,6 +317,24 @@ static void a_clearcoat_dims_the_emission_below_it(void **state)
     }
 }
 
+/* And the index is the coat's; KHR_materials_coat has the emission above it. */
+static void emission_may_lie_above_the_coat(void **state)
+{
+    (void)state;
+    ppm_material_desc desc = defaults();
+    desc.emission[0] = 3.0f;
+    desc.clearcoat = 1.0f;
+    desc.coat_ior = 2.0f;
+    place_quad(&desc, NULL, NULL);
+    ppmi_surface surface = surface_at(0, 0, 0.3f, 0.3f);
+    const ppmi_vec3 up = vec3(0, 0, 1);
+    assert_near(ppmi_surface_emission(test.scene, &surface, up).x, 3.0 * (1.0 - 1.0 / 9.0), 1e-5);
+    ppmi_material above = *surface.material;
+    above.desc.emission_is_above_coat = 1;
+    surface.material = &above;
+    assert_near(ppmi_surface_emission(test.scene, &surface, up).x, 3.0, 1e-6);
+}
+
 static void attenuation_follows_beer_and_lambert(void **state)
 {
     (void)state;
@@ -352,6 +370,7 @@ int main(void)
         WITH_SCENE(emission_has_one_side_or_two),
         WITH_SCENE(a_mirrored_instance_emits_from_its_outside),
         WITH_SCENE(a_clearcoat_dims_the_emission_below_it),
+        WITH_SCENE(emission_may_lie_above_the_coat),
         WITH_SCENE(attenuation_follows_beer_and_lambert),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
