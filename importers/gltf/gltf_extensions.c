@@ -93,9 +93,8 @@ static const struct {
     {"KHR_node_visibility", PPM_FEATURE_HONOURED, ""},
     {"KHR_physics_rigid_bodies", PPM_FEATURE_APPROXIMATED,
      "nothing is simulated: bodies are where the file places them"},
-    {"KHR_texture_basisu", PPM_FEATURE_APPROXIMATED,
-     "KTX2 files of plain and BC formats and of ETC1S are read; of UASTC the fallback image, if "
-     "any"},
+    {"KHR_texture_basisu", PPM_FEATURE_HONOURED,
+     "KTX2 files in ETC1S and UASTC, and of plain and BC formats"},
     {"KHR_texture_transform", PPM_FEATURE_HONOURED, ""},
     {"KHR_xmp", PPM_FEATURE_HONOURED, NO_EFFECT},
     {"KHR_xmp_json_ld", PPM_FEATURE_HONOURED, "the asset's packet, into the EXR's metadata"},

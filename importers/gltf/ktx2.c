@@ -183,15 +183,17 @@ static ppm_status find_etc1s(const header *h, const unsigned char *bytes, size_t
     return PPM_STATUS_OK;
 }
 
-/* Where the second slice is not alpha: how many channels there are (Khronos Data Format 1.3, "ETC1S
- * model": RRR, and GGG beside it). */
+/* Of Basis Universal, where what is stored as alpha is not alpha: how many channels there are
+ * (Khronos Data Format 1.3, "ETC1S model": RRR, and GGG beside it; "UASTC model": RRR and RRRG). */
 static void take_channels(const header *h, const unsigned char *bytes, size_t count,
                           ppmi_ktx2_format *format)
 {
-    enum { RED = 3, GREEN = 4, SAMPLE = 16, KIND = 15 };
-    if ((described(h, bytes, count, CHANNEL_AT) & KIND) != RED) return;
+    enum { RED = 3, GREEN = 4, SAMPLE = 16, KIND = 15, UASTC_RRR = 4, UASTC_RRRG = 5 };
+    const uint32_t first = described(h, bytes, count, CHANNEL_AT) & KIND;
     const uint32_t second = described(h, bytes, count, CHANNEL_AT + SAMPLE) & KIND;
-    format->channels = second == GREEN ? 2 : 1;
+    if (format->kind == PPMI_KTX2_UASTC && first == UASTC_RRR) format->channels = 1;
+    if (format->kind == PPMI_KTX2_UASTC && first == UASTC_RRRG) format->channels = 2;
+    if (format->kind == PPMI_KTX2_ETC1S && first == RED) format->channels = second == GREEN ? 2 : 1;
 }
 
 static ppm_status find_level(ppm_context *context, const header *h, const unsigned char *bytes,
@@ -268,7 +270,7 @@ ppm_status ppmi_ktx2_open(ppm_context *context, const unsigned char *bytes, size
         return fail(out, PPM_STATUS_INPUT_UNSUPPORTED, "its colours are multiplied by alpha");
     }
     if (described(&h, bytes, count, TRANSFER_AT) == TRANSFER_SRGB) out->format.is_srgb = true;
-    if (out->format.kind == PPMI_KTX2_ETC1S) take_channels(&h, bytes, count, &out->format);
+    take_channels(&h, bytes, count, &out->format);
     read_pairs(&h, bytes, count, out);
     const ppm_status status = check_shape(&h, out);
     return status == PPM_STATUS_OK ? find_level(context, &h, bytes, count, out) : status;

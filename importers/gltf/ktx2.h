@@ -1,6 +1,7 @@
 /* KTX 2.0 files: a container of pictures as graphics cards take them (Khronos, "KTX File Format
  * Specification", version 2.0). What is read are the pictures of the largest level, of formats that
- * hold plain values, or blocks that a DDS file may hold too, and ETC1S of Basis Universal. */
+ * hold plain values, or blocks that a DDS file may hold too, ASTC, and ETC1S and UASTC of Basis
+ * Universal. */
 #ifndef PPMI_GLTF_KTX2_H
 #define PPMI_GLTF_KTX2_H
 
@@ -21,7 +22,8 @@ typedef enum ppmi_ktx2_kind {
     PPMI_KTX2_E5B9G9R9,
     PPMI_KTX2_BLOCKS, /* 4 x 4 texels together */
     PPMI_KTX2_ASTC,   /* the same, of other sizes */
-    PPMI_KTX2_ETC1S   /* Basis Universal in BasisLZ: of no fixed size */
+    PPMI_KTX2_UASTC,  /* Basis Universal, 4 x 4 texels */
+    PPMI_KTX2_ETC1S   /* the same in BasisLZ: of no fixed size */
 } ppmi_ktx2_kind;
 
 /* A row of the table of formats. */
@@ -57,8 +59,8 @@ typedef struct ppmi_ktx2 {
 /* Whether a file begins like one. */
 bool ppmi_ktx2_is(const unsigned char *bytes, size_t count);
 
-/* The encoding of a file that can be opened no further, for messages: "UASTC"; NULL where it is
- * one that is read. */
+/* The encoding of a file that can be opened no further, for messages: "BC4"; NULL where it is one
+ * that is read. */
 const char *ppmi_ktx2_unread_encoding(const unsigned char *bytes, size_t count);
 
 /* Checks all sizes against the file's, and unpacks the largest level. bytes must outlive out.

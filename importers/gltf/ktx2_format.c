@@ -94,6 +94,11 @@ bool ppmi_ktx2_find_format(uint32_t vulkan, uint32_t color_model, ppmi_ktx2_form
         *out = (ppmi_ktx2_format){.kind = PPMI_KTX2_ETC1S, .channels = 4};
         return true;
     }
+    if (vulkan == 0 && color_model == MODEL_UASTC) {
+        *out = (ppmi_ktx2_format){
+            .kind = PPMI_KTX2_UASTC, .channels = 4, .bytes = 16, .block = {4, 4}};
+        return true;
+    }
     if (find_astc(vulkan, out)) return true;
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
         if (formats[i].vulkan != vulkan) continue;
@@ -105,7 +110,6 @@ bool ppmi_ktx2_find_format(uint32_t vulkan, uint32_t color_model, ppmi_ktx2_form
 
 const char *ppmi_ktx2_format_name(uint32_t vulkan, uint32_t color_model)
 {
-    if (vulkan == 0 && color_model == MODEL_UASTC) return "Basis Universal (UASTC)";
     if (vulkan == 0 && color_model == MODEL_UASTC_HDR) return "Basis Universal (UASTC HDR)";
     for (size_t i = 0; i < sizeof unread / sizeof unread[0]; ++i) {
         if (vulkan >= unread[i].first && vulkan <= unread[i].last) return unread[i].name;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gltf/basis_etc1s.h"
+#include "gltf/basis_uastc.h"
 #include "gltf/ktx2.h"
 #include "gltf/ktx2_astc.h"
 
@@ -70,6 +71,7 @@ static void read_texel(const ppmi_ktx2_format *format, const unsigned char *p, f
             break;
         case PPMI_KTX2_BLOCKS:
         case PPMI_KTX2_ASTC:
+        case PPMI_KTX2_UASTC:
         case PPMI_KTX2_ETC1S:
             break;
         }
@@ -218,8 +220,7 @@ static ppm_status wrap_blocks(ppm_context *context, ppmi_ktx2 *file, const unsig
     return PPM_STATUS_OK;
 }
 
-/* ---- blocks that become texels of four bytes --------------------------------------------------
- */
+/* ---- blocks that become texels of four bytes ------------------------------------------------- */
 
 static ppm_status decode_astc(const ppmi_ktx2 *file, uint32_t index, uint8_t *out,
                               const char **reason)
@@ -230,14 +231,24 @@ static ppm_status decode_astc(const ppmi_ktx2 *file, uint32_t index, uint8_t *ou
                                  file->format.is_srgb, file->width, file->height, out);
 }
 
-/* Of two channels the second is decoded as alpha is. */
 static ppm_status decode_etc1s(ppm_context *context, const ppmi_ktx2 *file, uint32_t index,
                                uint8_t *out, const char **reason)
 {
     const ppmi_basis_source source = {file->global,      file->global_bytes, file->level,
                                       file->level_bytes, file->images,       index,
                                       file->width,       file->height};
-    const ppm_status status = ppmi_basis_decode_etc1s(context, &source, out, reason);
+    return ppmi_basis_decode_etc1s(context, &source, out, reason);
+}
+
+/* Of two channels the second is decoded as alpha is. */
+static ppm_status decode_basis(ppm_context *context, const ppmi_ktx2 *file, uint32_t index,
+                               uint8_t *out, const char **reason)
+{
+    const unsigned char *picture = file->level + index * file->picture_bytes;
+    const ppm_status status =
+        file->format.kind == PPMI_KTX2_ETC1S
+            ? decode_etc1s(context, file, index, out, reason)
+            : ppmi_basis_decode_uastc(picture, file->width, file->height, out, reason);
     if (status != PPM_STATUS_OK || file->format.channels != 2) return status;
     for (size_t i = 0; i < (size_t)file->width * file->height; ++i)
         out[4 * i + 1] = out[4 * i + 3];
@@ -254,7 +265,7 @@ static ppm_status decode(ppm_context *context, ppmi_ktx2 *file, uint32_t index,
     if (decoded && blocks.kind == PPMI_KTX2_ASTC) {
         status = decode_astc(file, index, decoded, &reason);
     } else if (decoded) {
-        status = decode_etc1s(context, file, index, decoded, &reason);
+        status = decode_basis(context, file, index, decoded, &reason);
     }
     if (status == PPM_STATUS_OK) {
         file->format = (ppmi_ktx2_format){.kind = PPMI_KTX2_U8,
@@ -286,6 +297,7 @@ ppm_status ppmi_ktx2_picture(ppm_context *context, ppmi_ktx2 *file, uint32_t lay
     case PPMI_KTX2_BLOCKS:
         return wrap_blocks(context, file, picture, desc, out_owned);
     case PPMI_KTX2_ASTC:
+    case PPMI_KTX2_UASTC:
     case PPMI_KTX2_ETC1S:
         return decode(context, file, index, desc, out_owned);
     default:
