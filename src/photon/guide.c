@@ -18,7 +18,9 @@ typedef struct cell {
 
 typedef struct growth {
     ppmi_photon_guide *guide;
-    double mass[PPMI_GUIDE_MAX_NODES]; /* what photons of the cell bring */
+    double brings[PPMI_GUIDE_MAX_NODES]; /* what photons of the cell bring */
+    double used[PPMI_GUIDE_MAX_NODES];   /* the share of its photons that are gathered */
+    double mass[PPMI_GUIDE_MAX_NODES];   /* what it is worth, see weigh_leaves */
     double volume[PPMI_GUIDE_MAX_NODES];
 } growth;
 
@@ -32,6 +34,15 @@ static double weigh(const cell *c, double *out_effective)
     }
     *out_effective = squares > 0.0 ? sum * sum / squares : 0.0;
     return sum;
+}
+
+/* The share of even photons in a cell that are gathered. */
+static double used_share(const cell *c)
+{
+    double used = 0.0;
+    for (size_t i = 0; i < c->count; i++)
+        used += c->seen[i].volume;
+    return fmin(used / c->volume, 1.0);
 }
 
 /* How like each other slices of the cell along an axis are: the coefficient of Bhattacharyya of
@@ -106,8 +117,9 @@ static void grow(growth *g, cell *cells)
         ppmi_guide_node *node = &guide->nodes[i];
         *node = (ppmi_guide_node){.lower = 0.5};
         double effective;
-        g->volume[i] = c->volume;
-        g->mass[i] = weigh(c, &effective);
+        g->volume[i] = c->volume / cells[0].volume;
+        g->brings[i] = weigh(c, &effective);
+        g->used[i] = used_share(c);
         const int axis = c->depth < MAX_DEPTH ? axis_of(c) : -1;
         if (axis < 0 || guide->count + 2 > PPMI_GUIDE_MAX_NODES) continue;
         node->axis = (uint16_t)axis;
@@ -117,10 +129,47 @@ static void grow(growth *g, cell *cells)
     }
 }
 
-/* Each half's share of its cell: by what it brings, but for the share that is even. */
+/* What leaves are worth: by what they bring to this power of the share of their photons that bring
+ * it. Returns the share of photons that are gathered if they are drawn by that. */
+static double weigh_leaves(growth *g, double power)
+{
+    ppmi_photon_guide *guide = g->guide;
+    double by_worth = 0.0, evenly = 0.0;
+    for (uint32_t i = guide->count; i-- > 0;) { /* halves come after what they are halves of */
+        const uint32_t k = guide->nodes[i].children;
+        if (k > 0) {
+            g->mass[i] = g->mass[k] + g->mass[k + 1];
+            continue;
+        }
+        const double used = g->used[i];
+        g->mass[i] = used > 0.0 ? g->brings[i] * pow(used, power) : 0.0;
+        by_worth += g->mass[i] * used;
+        evenly += g->volume[i] * used;
+    }
+    if (!(g->mass[0] > 0.0)) return 0.0;
+    return PPMI_GUIDE_EVEN_SHARE * evenly + (1.0 - PPMI_GUIDE_EVEN_SHARE) * by_worth / g->mass[0];
+}
+
+/* Variance is least with densities by the root of the mean square of what photons bring. Where few
+ * of them bring it, each of those brings much: the root is the mean over the root of their share,
+ * which is far better known than the mean square itself. It sends many photons to where few are of
+ * use; where most could be, half shall. */
+static void weigh_all(growth *g)
+{
+    const double half = 0.55, least = -0.5, step = 0.05; /* half, of what is an estimate */
+    double power = least;
+    if (weigh_leaves(g, 0.0) >= half) {
+        while (power < 0.0 && weigh_leaves(g, power) < half)
+            power += step;
+    }
+    weigh_leaves(g, power);
+}
+
+/* Each half's share of its cell: by what it is worth, but for the share that is even. */
 static void share(growth *g)
 {
     ppmi_photon_guide *guide = g->guide;
+    weigh_all(g);
     const double total = g->mass[0], even = total > 0.0 ? PPMI_GUIDE_EVEN_SHARE : 1.0;
     for (uint32_t i = 0; i < guide->count; i++) {
         const uint32_t k = guide->nodes[i].children;
@@ -135,14 +184,14 @@ static void share(growth *g)
 }
 
 ppm_status ppmi_guide_learn(ppm_context *context, ppmi_photon_guide *guide, ppmi_guide_seen *seen,
-                            size_t count)
+                            size_t count, double whole)
 {
     growth *g = ppmi_alloc(context, 1, sizeof *g);
     cell *cells = ppmi_alloc(context, PPMI_GUIDE_MAX_NODES, sizeof *cells);
     const bool has_memory = g && cells;
     if (has_memory) {
         g->guide = guide;
-        cells[0] = (cell){.seen = seen, .count = count, .volume = 1.0};
+        cells[0] = (cell){.seen = seen, .count = count, .volume = whole};
         for (int axis = 0; axis < PPMI_GUIDE_AXES; axis++)
             cells[0].size[axis] = 1.0;
         guide->count = 1;

@@ -35,19 +35,20 @@ typedef struct ppmi_photon_guide {
     ppmi_guide_node nodes[PPMI_GUIDE_MAX_NODES];
 } ppmi_photon_guide;
 
-/* A photon that was gathered. weight: what it brought, with the power that it had. */
+/* A photon that was gathered. weight: what it brought, with the power that it had; volume: the part
+ * of the numbers' cube that it stands for, by its density and the count of photons. */
 typedef struct ppmi_guide_seen {
     ppmi_emission_sample sample;
-    double weight;
+    double weight, volume;
 } ppmi_guide_seen;
 
-/* Learns from count photons, which are put into another order. The density of a cell is in
- * proportion to what its photons bring for its size: so all photons bring about as much. (By the
- * mean square, which would make the variance least, too few photons decide too much.) Returns OK,
- * OUT_OF_MEMORY.
+/* Learns from count photons, which are put into another order; whole: the volume of the cube in the
+ * photons' measure. The density of a cell is in proportion to what its photons bring for its size,
+ * and more where few of them bring it. (By the mean square itself, which would make the variance
+ * least, too few photons decide too much.) Returns OK, OUT_OF_MEMORY.
  */
 ppm_status ppmi_guide_learn(ppm_context *context, ppmi_photon_guide *guide, ppmi_guide_seen *seen,
-                            size_t count);
+                            size_t count, double whole);
 
 /* Density of a sample, by that of even ones: at least PPMI_GUIDE_EVEN_SHARE. */
 double ppmi_guide_density(const ppmi_photon_guide *guide, const ppmi_emission_sample *sample);

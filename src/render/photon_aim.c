@@ -67,7 +67,8 @@ static bool add_round(ppm_context *context, ppmi_photon_aim *aim, const ppmi_pho
     for (uint32_t i = 0; i < walk->count; i++) {
         if (sums[i] == 0) continue;
         ppmi_guide_seen *one = &aim->seen[aim->seen_count++];
-        ppmi_photon_walk_sample(walk, i, &one->sample);
+        const double density = ppmi_photon_walk_sample(walk, i, &one->sample);
+        one->volume = of_round / density;
         one->weight = of_round * (double)sums[i] / (double)PPMI_PHOTON_MARK;
     }
     aim->used_share = (double)seen / walk->count;
@@ -90,7 +91,8 @@ ppm_status ppmi_photon_aim_learn(const ppmi_job *job, ppmi_photon_aim *aim, ppmi
     ppmi_free(job->context, sums);
     ppmi_photon_map_end_marks(job->context, map);
     const ppm_status status =
-        has_memory ? ppmi_guide_learn(job->context, aim->guide, aim->seen, aim->seen_count)
+        has_memory ? ppmi_guide_learn(job->context, aim->guide, aim->seen, aim->seen_count,
+                                      ldexp(1.0, (int)aim->rounds + 1) - 1.0)
                    : ppmi_fail(job->context, PPM_STATUS_OUT_OF_MEMORY, "out of memory: guide");
     if (status != PPM_STATUS_OK) {
         aim->seen_count = seen_before; /* the round may be tried again */

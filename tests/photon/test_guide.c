@@ -53,9 +53,10 @@ static void learn(uint32_t photons)
     ppmi_rng rng = ppmi_rng_start(1, PPMI_STREAM_PHOTON, 0);
     for (uint32_t i = 0; i < photons; i++) {
         const ppmi_emission_sample sample = even_sample(&rng);
-        if (is_useful(&sample)) seen[count++] = (ppmi_guide_seen){sample, 1.0 + sample.x[1]};
+        if (is_useful(&sample)) seen[count++] = (ppmi_guide_seen){sample, 1.0 + sample.x[1], 1.0};
     }
-    assert_int_equal(ppmi_guide_learn(context, &guide, seen, count), PPM_STATUS_OK);
+    assert_int_equal(ppmi_guide_learn(context, &guide, seen, count, (double)photons),
+                     PPM_STATUS_OK);
     free(seen);
 }
 
@@ -133,10 +134,44 @@ static void the_order_along_an_axis_stays(void **state)
     }
 }
 
+/* Two halves of the cube: all photons of the lower one bring 1; of the upper one, which brings
+ * times as much in all, one in rarity. Returns the upper one's density. */
+static double density_of_rare_half(uint32_t rarity, double times)
+{
+    enum { PHOTONS = 40000 };
+    ppmi_guide_seen *seen = calloc(PHOTONS, sizeof *seen);
+    assert_non_null(seen);
+    size_t count = 0;
+    ppmi_rng rng = ppmi_rng_start(5, PPMI_STREAM_PHOTON, 0);
+    for (uint32_t i = 0; i < PHOTONS; i++) {
+        const ppmi_emission_sample sample = even_sample(&rng);
+        const bool is_rare = sample.x[2] >= 0.5;
+        if (is_rare && ppmi_rng_float(&rng) * (float)rarity >= 1.0f) continue;
+        seen[count++] = (ppmi_guide_seen){sample, is_rare ? times * rarity : 1.0, 1.0};
+    }
+    assert_int_equal(ppmi_guide_learn(context, &guide, seen, count, PHOTONS), PPM_STATUS_OK);
+    free(seen);
+    const ppmi_emission_sample middle = {{0.3, 0.3, 0.7, 0.3, 0.3}};
+    return ppmi_guide_density(&guide, &middle);
+}
+
+static void where_few_photons_bring_much_more_are_sent(void **state)
+{
+    (void)state;
+    const double even = PPMI_GUIDE_EVEN_SHARE;
+    /* by the root of the share: 4 times as many for a sixteenth */
+    assert_near(density_of_rare_half(16, 4.0), even + (1.0 - even) * 2.0 * 16.0 / 17.0, 0.05);
+    /* here that would leave less than half of all to be of use */
+    const double by_mean = even + (1.0 - even) * 2.0 / 5.0;
+    const double upper = density_of_rare_half(16, 0.25);
+    assert_true(upper > 1.1 * by_mean);
+    assert_near(0.5 * (2.0 - upper) + 0.5 * upper / 16.0, 0.56, 0.02);
+}
+
 static void without_photons_the_guide_is_even(void **state)
 {
     (void)state;
-    assert_int_equal(ppmi_guide_learn(context, &guide, NULL, 0), PPM_STATUS_OK);
+    assert_int_equal(ppmi_guide_learn(context, &guide, NULL, 0, 1.0), PPM_STATUS_OK);
     ppmi_emission_sample sample = {{0.1, 0.2, 0.3, 0.4, 0.5}};
     assert_near(ppmi_guide_warp(&guide, &sample), 1.0, 1e-12);
     assert_near(sample.x[3], 0.4, 1e-12);
@@ -149,6 +184,7 @@ int main(void)
         cmocka_unit_test(the_density_integrates_to_one),
         cmocka_unit_test(samples_go_where_photons_were_seen),
         cmocka_unit_test(the_order_along_an_axis_stays),
+        cmocka_unit_test(where_few_photons_bring_much_more_are_sent),
         cmocka_unit_test(without_photons_the_guide_is_even),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
