@@ -450,7 +450,7 @@ static void a_thing_inside_coloured_glass_is_lit_through_it(void **state)
     const double way = 0.2 / 0.8 + 0.2, lambert = 2.0 * 0.8 * 0.5 / M_PI;
     test_family family = {0};
     for (int32_t i = PPM_INTEGRATOR_SPPM; i <= PPM_INTEGRATOR_PPM; i += 2) {
-        ppm_render_options options = render_options(i, 16, 400000);
+        ppm_render_options options = render_options(i, 16, 40000);
         options.radius_m = 1.0f;
         const test_mean red = render_means(test.scene, &options, 2, 12, measure_red, NULL);
         const test_mean green = render_green(test.scene, &options, 2, 12);
