@@ -13,6 +13,7 @@
 #include "shading/diffuse_base.h"
 #include "shading/glass_lobe.h"
 #include "shading/layers.h"
+#include "shading/layers_top.h"
 #include "shading/microfacet.h"
 
 /* A GGX lobe at least this wide is worth estimating from photon density: below, few photons fall
@@ -21,16 +22,11 @@ static const float gather_alpha = 0.2f;
 
 /* ---- building -------------------------------------------------------------------------------- */
 
-static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
-{
-    return pair.a * f0 + pair.b * f90;
-}
-
 static void make_wide(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average,
                       const ppmi_material_point *point, float opaque, float metallic)
 {
-    const float left_o = 1.0f - pair_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
-    const float left_average = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+    const float left_o = 1.0f - ppmi_albedo_value(at_o, bsdf->coat_f0, bsdf->coat_f90);
+    const float left_average = 1.0f - ppmi_albedo_value(average, bsdf->coat_f0, bsdf->coat_f90);
     const float coat = opaque * (1.0f - metallic) * left_o / ppmi_max(left_average, 1e-4f);
     bsdf->coat_base = vec3_scale(point->base_color, coat);
 
@@ -64,7 +60,7 @@ static void choose_by_albedo(ppmi_bsdf *bsdf, const float *albedos, uint32_t cou
 
 static void make_lobe_masks(ppmi_bsdf *bsdf, ppmi_albedo_pair at_o, ppmi_albedo_pair average)
 {
-    const float coat_left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+    const float coat_left = 1.0f - ppmi_albedo_value(average, bsdf->coat_f0, bsdf->coat_f90);
     float albedos[3];
     albedos[0] = vec3_max_component(bsdf->coat_base) * coat_left +
                  vec3_max_component(bsdf->metal_base) * (1.0f - average.a - average.b);
@@ -215,7 +211,7 @@ static ppmi_vec3 wide_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albed
         return vec3_scale(base, PPMI_INV_PI); /* nothing above it */
     }
     const ppmi_albedo_pair at_i = ppmi_albedo_directional(albedo, bsdf->roughness, wi.z);
-    const float coat = 1.0f - pair_value(at_i, bsdf->coat_f0, bsdf->coat_f90);
+    const float coat = 1.0f - ppmi_albedo_value(at_i, bsdf->coat_f0, bsdf->coat_f90);
     const float metal = ppmi_max(1.0f - at_i.a - at_i.b, 0.0f);
     return vec3_scale(vec3_mad(vec3_scale(base, coat), bsdf->metal_base, metal), PPMI_INV_PI);
 }
@@ -568,7 +564,7 @@ static ppmi_vec3 plain_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
         average = ppmi_albedo_average(albedo, bsdf->roughness);
     }
     if (mask & PPMI_LOBE_WIDE) {
-        const float left = 1.0f - pair_value(average, bsdf->coat_f0, bsdf->coat_f90);
+        const float left = 1.0f - ppmi_albedo_value(average, bsdf->coat_f0, bsdf->coat_f90);
         sum = vec3_scale(ppmi_bsdf_diffuse_albedo(bsdf, bsdf->coat_base, bsdf->tint), left);
         sum = vec3_mad(sum, bsdf->metal_base, 1.0f - average.a - average.b);
     }

@@ -11,204 +11,10 @@
 #include "shading/coat.h"
 #include "shading/diffuse_base.h"
 #include "shading/iridescence.h"
+#include "shading/layers_top.h"
 #include "shading/sheen.h"
 
 static const float gather_alpha = 0.2f; /* as in bsdf.c */
-
-static float pair_value(ppmi_albedo_pair pair, float f0, float f90)
-{
-    return pair.a * f0 + pair.b * f90;
-}
-
-static bool is_coat_mirror(const ppmi_bsdf_layers *layers)
-{
-    return ppmi_max(layers->coat_alpha.x, layers->coat_alpha.y) < PPMI_SMOOTH_ALPHA;
-}
-
-/* ---- what the layers on top reflect ---------------------------------------------------------- */
-
-static ppmi_frame coat_frame(const ppmi_bsdf_layers *layers)
-{
-    const ppmi_vec3 n = layers->coat_normal, t = layers->coat_tangent;
-    ppmi_frame frame = ppmi_frame_from_normal(n);
-    if (!(layers->coat_anisotropy > 0.0f)) return frame;
-    const ppmi_vec3 flat = vec3_mad(t, n, -vec3_dot(t, n));
-    if (!(vec3_length2(flat) > 1e-8f)) return frame;
-    frame.s = vec3_normalize(flat);
-    frame.t = vec3_cross(n, frame.s);
-    return frame;
-}
-
-/* A direction in the coat's frame; along its normal where there is none. Only a coat of two widths
- * asks for more than the cosine. */
-static ppmi_vec3 in_coat(const ppmi_bsdf_layers *layers, ppmi_vec3 w)
-{
-    if (!(layers->coat > 0.0f)) return vec3(0.0f, 0.0f, 1.0f);
-    if (!(layers->coat_anisotropy > 0.0f)) {
-        return vec3(0.0f, 0.0f, fabsf(vec3_dot(layers->coat_normal, w)));
-    }
-    const ppmi_frame frame = coat_frame(layers);
-    const ppmi_vec3 local = ppmi_frame_to_local(&frame, w);
-    return vec3(local.x, local.y, fabsf(local.z));
-}
-
-/* One that stands for all of a cosine: between along and across. */
-static ppmi_vec3 at_cosine(float cosine)
-{
-    const float side = sqrtf(ppmi_max(0.5f * (1.0f - cosine * cosine), 0.0f));
-    return vec3(side, side, cosine);
-}
-
-/* w: in the coat's frame. */
-static float coat_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                         ppmi_vec3 w)
-{
-    if (!(layers->coat > 0.0f)) return 0.0f;
-    if (is_coat_mirror(layers)) return layers->coat * ppmi_schlick(layers->coat_f0, w.z);
-    const ppmi_albedo_pair pair =
-        layers->coat_anisotropy > 0.0f
-            ? ppmi_lobe_wide_albedo(albedo->lobes, layers->coat_roughness, layers->coat_anisotropy,
-                                    w)
-            : ppmi_albedo_directional(albedo, layers->coat_roughness, w.z);
-    return layers->coat * pair_value(pair, layers->coat_f0, 1.0f);
-}
-
-/* What the fibres stop; they may absorb a part of it. */
-static float sheen_albedo(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                          float cosine)
-{
-    const float share = layers->sheen_share;
-    if (!(share > 0.0f)) return 0.0f;
-    return ppmi_min(share * ppmi_lobe_sheen_albedo(albedo->lobes, layers->sheen_roughness, cosine),
-                    1.0f);
-}
-
-/* T: what coat and sheen leave over, by a direction in the coat's frame and its cosine to the
- * base's normal. */
-static float left_over(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                       ppmi_vec3 w_coat, float cosine)
-{
-    return (1.0f - coat_albedo(layers, albedo, w_coat)) *
-           (1.0f - sheen_albedo(layers, albedo, cosine));
-}
-
-static bool has_top(const ppmi_bsdf_layers *layers)
-{
-    return layers->coat > 0.0f || layers->sheen_share > 0.0f;
-}
-
-static float passing_to(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    if (!has_top(layers)) return 1.0f;
-    return ppmi_min(layers->passing, left_over(layers, albedo, in_coat(layers, wi), fabsf(wi.z)));
-}
-
-/* What fuzz above the coat leaves to it, in both directions. */
-static float passing_fuzz(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, float cos_i)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    if (!layers->sheen_is_on_top) return 1.0f;
-    return 1.0f - ppmi_max(sheen_albedo(layers, albedo, bsdf->wo.z),
-                           sheen_albedo(layers, albedo, fabsf(cos_i)));
-}
-
-/* Of a lobe of one width that spreads as far on average as two: by their mean square. */
-static float mean_roughness(ppmi_vec2 alpha)
-{
-    return sqrtf(sqrtf(0.5f * (ppmi_sqr(alpha.x) + ppmi_sqr(alpha.y))));
-}
-
-/* Albedos of coat and sheen; the one that lies below has only what the other leaves it. */
-typedef struct top_albedos {
-    float coat, sheen;
-} top_albedos;
-
-static float sheen_under_coat(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                              float coat, float cosine)
-{
-    float nodes[PPMI_LOBE_NODES];
-    ppmi_lobe_sheen_nodes(albedo->lobes, layers->sheen_roughness, cosine, nodes);
-    float passing = 0.0f;
-    for (int k = 0; k < PPMI_LOBE_NODES; k++)
-        passing += ppmi_min(1.0f - coat, 1.0f - coat_albedo(layers, albedo, at_cosine(nodes[k])));
-    return passing / PPMI_LOBE_NODES;
-}
-
-static float coat_under_sheen(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                              float sheen, float cosine)
-{
-    if (is_coat_mirror(layers)) return 1.0f - sheen;
-    ppmi_lobe_nodes nodes;
-    ppmi_lobe_ggx_nodes(albedo->lobes, mean_roughness(layers->coat_alpha), cosine, &nodes);
-    float passing = 0.0f;
-    for (int k = 0; k < PPMI_LOBE_NODES; k++)
-        passing += ppmi_min(1.0f - sheen, 1.0f - sheen_albedo(layers, albedo, nodes.cos_i[k]));
-    return passing / PPMI_LOBE_NODES;
-}
-
-static top_albedos top_albedos_at(const ppmi_bsdf_layers *layers, const ppmi_albedo_table *albedo,
-                                  ppmi_vec3 w_coat, float cosine)
-{
-    top_albedos top = {coat_albedo(layers, albedo, w_coat), sheen_albedo(layers, albedo, cosine)};
-    if (top.coat == 0.0f || top.sheen == 0.0f) return top;
-    if (layers->sheen_is_on_top) {
-        top.coat *= coat_under_sheen(layers, albedo, top.sheen, cosine);
-    } else {
-        top.sheen *= sheen_under_coat(layers, albedo, top.coat, cosine);
-    }
-    return top;
-}
-
-/* ---- the coat's colour ----------------------------------------------------------------------- */
-
-/* What the coat leaves of light on a way through it of this length by a straight one: of the share
- * that is coated. */
-static ppmi_vec3 tint_of(const ppmi_bsdf_layers *layers, float path)
-{
-    return vec3_lerp(vec3_splat(1.0f), ppmi_coat_transmittance(layers->coat_tint, path),
-                     layers->coat);
-}
-
-/* Of light that goes from wo to the base and on to a direction of this cosine to the coat's normal
- * or back. */
-static ppmi_vec3 base_tint(const ppmi_bsdf *bsdf, float path_in)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
-    const float path_out = ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z);
-    const ppmi_vec3 passed = vec3_mul(
-        ppmi_coat_transmittance(layers->coat_tint, path_in + path_out), layers->coat_darkened);
-    return vec3_lerp(vec3_splat(1.0f), passed, layers->coat);
-}
-
-static ppmi_vec3 base_tint_to(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
-    return base_tint(bsdf, ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z));
-}
-
-/* The sheen lies below the coat, without reflections to and fro. */
-static ppmi_vec3 sheen_tint_to(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    if (!layers->is_coat_tinted) return vec3_splat(1.0f);
-    return tint_of(layers, ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z) +
-                               ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z));
-}
-
-/* Through the glass light crosses the coat once. */
-ppmi_vec3 ppmi_layers_glass_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                                    ppmi_vec3 wi)
-{
-    const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const ppmi_vec3 passing = vec3_splat(passing_to(bsdf, albedo, wi));
-    if (!layers->is_coat_tinted) return passing;
-    const float path = ppmi_coat_path(layers->coat_ior, in_coat(layers, bsdf->wo).z) +
-                       ppmi_coat_path(layers->coat_ior, in_coat(layers, wi).z);
-    return vec3_mul(passing, tint_of(layers, wi.z > 0.0f ? path : 0.5f * path));
-}
 
 /* ---- the base's speculars -------------------------------------------------------------------- */
 
@@ -264,7 +70,7 @@ static int spec_nodes(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, fl
         nodes->cos_i[0] = nodes->cos_h[0] = cosine;
         return 1;
     }
-    ppmi_lobe_ggx_nodes(albedo->lobes, mean_roughness(layers->alpha), cosine, nodes);
+    ppmi_lobe_ggx_nodes(albedo->lobes, ppmi_mean_roughness(layers->alpha), cosine, nodes);
     return PPMI_LOBE_NODES;
 }
 
@@ -280,7 +86,7 @@ static float film_albedo(const ppmi_bsdf_layers *layers, ppmi_albedo_pair pair,
         const float c = nodes->cos_h[k];
         beyond += vec3_max_component(film_at(layers, layers->film_f0, c)) - ppmi_schlick(f0, c);
     }
-    return pair_value(pair, f0, 1.0f) + (pair.a + pair.b) * beyond / (float)count;
+    return ppmi_albedo_value(pair, f0, 1.0f) + (pair.a + pair.b) * beyond / (float)count;
 }
 
 /* Share of the lobe that passes the layers above. */
@@ -290,7 +96,7 @@ static float spec_passing(const ppmi_bsdf_layers *layers, const ppmi_albedo_tabl
     float passing = 0.0f;
     for (int k = 0; k < count; k++) {
         const float c = nodes->cos_i[k];
-        passing += ppmi_min(here, left_over(layers, albedo, at_cosine(c), c));
+        passing += ppmi_min(here, ppmi_top_left_over(layers, albedo, ppmi_coat_at_cosine(c), c));
     }
     return passing / (float)count;
 }
@@ -311,14 +117,15 @@ static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
                               ppmi_vec3 w_coat, ppmi_vec3 w)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const bool is_covered = has_top(layers);
-    const top_albedos parts =
-        is_covered ? top_albedos_at(layers, albedo, w_coat, w.z) : (top_albedos){0.0f, 0.0f};
+    const bool is_covered = ppmi_has_top(layers);
+    const ppmi_top_albedos parts = is_covered ? ppmi_top_albedos_at(layers, albedo, w_coat, w.z)
+                                              : (ppmi_top_albedos){0.0f, 0.0f};
     const float top = parts.coat + parts.sheen;
     leftovers left = {1.0f - top, 1.0f - top};
     if (!has_speculars(bsdf)) return left;
     const ppmi_albedo_pair pair = spec_pair(bsdf, albedo, w);
-    float dielectric = pair_value(pair, bsdf->coat_f0, bsdf->coat_f90), metal = pair.a + pair.b;
+    float dielectric = ppmi_albedo_value(pair, bsdf->coat_f0, bsdf->coat_f90),
+          metal = pair.a + pair.b;
     /* under a pure metal nothing asks for the dielectric's share, and a film is costly */
     const bool has_film = layers->film > 0.0f && layers->metallic < 1.0f;
     if (is_covered || has_film) {
@@ -329,7 +136,7 @@ static leftovers leftovers_at(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
             dielectric += (film - dielectric) * layers->film;
         }
         if (is_covered) {
-            const float here = left_over(layers, albedo, w_coat, w.z);
+            const float here = ppmi_top_left_over(layers, albedo, w_coat, w.z);
             const float passing = spec_passing(layers, albedo, here, &nodes, count);
             dielectric *= passing;
             metal *= passing;
@@ -473,7 +280,8 @@ static void set_diffuse(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                         const ppmi_material_point *point, const leftovers *average)
 {
     ppmi_bsdf_layers *layers = &bsdf->layers;
-    const leftovers left = leftovers_at(bsdf, albedo, in_coat(layers, bsdf->wo), bsdf->wo);
+    const leftovers left =
+        leftovers_at(bsdf, albedo, ppmi_coat_direction(layers, bsdf->wo), bsdf->wo);
     const float dielectric = layers->opaque * (1.0f - layers->metallic) * left.dielectric /
                              ppmi_max(average->dielectric, 1e-4f);
     const float through = point->layers.through;
@@ -503,7 +311,7 @@ static void set_masks(ppmi_bsdf *bsdf)
     }
     bsdf->delta_lobes = 0;
     if (is_mirror(layers)) bsdf->delta_lobes |= speculars;
-    if (is_coat_mirror(layers)) bsdf->delta_lobes |= PPMI_LOBE_COAT;
+    if (ppmi_coat_is_mirror(layers)) bsdf->delta_lobes |= PPMI_LOBE_COAT;
     if (bsdf->glass_alpha < PPMI_SMOOTH_ALPHA) bsdf->delta_lobes |= PPMI_LOBE_GLASS;
 }
 
@@ -514,7 +322,7 @@ static float spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo)
     if (bsdf->layers.film > 0.0f) {
         return (pair.a + pair.b) * vec3_max_component(spec_fresnel(bsdf, bsdf->wo.z));
     }
-    return pair_value(pair, vec3_max_component(bsdf->f0), vec3_max_component(bsdf->f90));
+    return ppmi_albedo_value(pair, vec3_max_component(bsdf->f0), vec3_max_component(bsdf->f90));
 }
 
 /* What the fibres reflect of what they stop, by the strongest channel. */
@@ -536,13 +344,13 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
     set_coat(bsdf, &point->layers);
     set_coat_color(bsdf, point);
     set_metal_edge(bsdf, point);
-    const ppmi_vec3 w_coat = in_coat(layers, bsdf->wo);
+    const ppmi_vec3 w_coat = ppmi_coat_direction(layers, bsdf->wo);
     const float cosine = bsdf->wo.z;
-    if (has_top(layers)) layers->passing = left_over(layers, albedo, w_coat, cosine);
+    if (ppmi_has_top(layers)) layers->passing = ppmi_top_left_over(layers, albedo, w_coat, cosine);
     const leftovers average = average_leftovers(bsdf, albedo);
     set_diffuse(bsdf, albedo, point, &average);
     set_masks(bsdf);
-    const top_albedos top = top_albedos_at(layers, albedo, w_coat, cosine);
+    const ppmi_top_albedos top = ppmi_top_albedos_at(layers, albedo, w_coat, cosine);
     const float speculars = layers->passing * spec_albedo(bsdf, albedo);
     *out_albedos = (ppmi_lobe_albedos){{
         vec3_max_component(bsdf->coat_base) * average.dielectric +
@@ -587,7 +395,7 @@ static ppmi_vec3 colored_spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_ta
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
     if (!has_speculars(bsdf)) return vec3_splat(0.0f);
-    const bool has_film = layers->film > 0.0f, is_covered = has_top(layers);
+    const bool has_film = layers->film > 0.0f, is_covered = ppmi_has_top(layers);
     const ppmi_albedo_pair pair = spec_pair(bsdf, albedo, bsdf->wo);
     const ppmi_vec3 f0 = has_film ? spec_fresnel(bsdf, 1.0f) : bsdf->f0;
     const ppmi_vec3 f90 =
@@ -603,7 +411,7 @@ static ppmi_vec3 colored_spec_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_ta
         sum = vec3_sub(sum, edge_albedo(bsdf, pair, &nodes, count));
     }
     if (!is_covered) return sum;
-    sum = vec3_mul(sum, base_tint_to(bsdf, bsdf->wo));
+    sum = vec3_mul(sum, ppmi_base_tint_to(bsdf, bsdf->wo));
     return vec3_scale(sum, spec_passing(layers, albedo, layers->passing, &nodes, count));
 }
 
@@ -620,13 +428,14 @@ static ppmi_vec3 diffuse_albedo(const ppmi_bsdf *bsdf, const leftovers *average,
         sum = vec3_mad(sum, ppmi_bsdf_diffuse_albedo(bsdf, layers->through, layers->through_color),
                        average->dielectric);
     }
-    return vec3_mul(sum, base_tint(bsdf, ppmi_coat_mean_path(layers->coat_ior)));
+    return vec3_mul(sum, ppmi_base_tint(bsdf, ppmi_coat_mean_path(layers->coat_ior)));
 }
 
 ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const top_albedos top = top_albedos_at(layers, albedo, in_coat(layers, bsdf->wo), bsdf->wo.z);
+    const ppmi_top_albedos top =
+        ppmi_top_albedos_at(layers, albedo, ppmi_coat_direction(layers, bsdf->wo), bsdf->wo.z);
     ppmi_vec3 sum = vec3_splat(mask & PPMI_LOBE_COAT ? top.coat : 0.0f);
     if (mask & (PPMI_LOBE_WIDE | PPMI_LOBE_THROUGH)) {
         const leftovers average = average_leftovers(bsdf, albedo);
@@ -638,7 +447,7 @@ ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *alb
     if (mask & PPMI_LOBE_SHEEN && layers->sheen_share > 0.0f) {
         const ppmi_vec3 sheen = vec3_scale(layers->sheen_color, top.sheen / layers->sheen_share);
         const bool is_below = !layers->sheen_is_on_top;
-        sum = vec3_add(sum, is_below ? vec3_mul(sheen, sheen_tint_to(bsdf, bsdf->wo)) : sheen);
+        sum = vec3_add(sum, is_below ? vec3_mul(sheen, ppmi_sheen_tint_to(bsdf, bsdf->wo)) : sheen);
     }
     return sum;
 }
@@ -685,8 +494,8 @@ static ppmi_vec3 speculars_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *
         f = vec3_mad(f, spec_eval(bsdf, spec_origin(bsdf, lobe), wi),
                      spec_share(&bsdf->layers, lobe));
     }
-    f = vec3_mul(f, base_tint_to(bsdf, wi));
-    return vec3_scale(f, passing_to(bsdf, albedo, wi));
+    f = vec3_mul(f, ppmi_base_tint_to(bsdf, wi));
+    return vec3_scale(f, ppmi_top_passing(bsdf, albedo, wi));
 }
 
 static ppmi_vec3 sheen_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, ppmi_vec3 wi)
@@ -700,9 +509,9 @@ static ppmi_vec3 sheen_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albe
     if (layers->sheen_is_on_top || !(layers->coat > 0.0f)) {
         return vec3_scale(layers->sheen_color, f);
     }
-    f *= 1.0f - ppmi_max(coat_albedo(layers, albedo, in_coat(layers, bsdf->wo)),
-                         coat_albedo(layers, albedo, in_coat(layers, wi)));
-    return vec3_scale(vec3_mul(layers->sheen_color, sheen_tint_to(bsdf, wi)), f);
+    f *= 1.0f - ppmi_max(ppmi_coat_albedo(layers, albedo, ppmi_coat_direction(layers, bsdf->wo)),
+                         ppmi_coat_albedo(layers, albedo, ppmi_coat_direction(layers, wi)));
+    return vec3_scale(vec3_mul(layers->sheen_color, ppmi_sheen_tint_to(bsdf, wi)), f);
 }
 
 /* The diffuse base to one side or the other. */
@@ -710,7 +519,7 @@ static ppmi_vec3 diffuse_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
     const ppmi_vec3 upper = vec3(wi.x, wi.y, fabsf(wi.z));
-    const leftovers left = leftovers_at(bsdf, albedo, in_coat(layers, wi), upper);
+    const leftovers left = leftovers_at(bsdf, albedo, ppmi_coat_direction(layers, wi), upper);
     ppmi_vec3 f;
     if (wi.z > 0.0f) {
         f = vec3_scale(ppmi_bsdf_diffuse(bsdf, bsdf->coat_base, bsdf->tint, upper),
@@ -720,7 +529,7 @@ static ppmi_vec3 diffuse_eval(const ppmi_bsdf *bsdf, const ppmi_albedo_table *al
         f = vec3_scale(ppmi_bsdf_diffuse(bsdf, layers->through, layers->through_color, upper),
                        left.dielectric);
     }
-    return vec3_scale(vec3_mul(f, base_tint_to(bsdf, wi)), PPMI_INV_PI);
+    return vec3_scale(vec3_mul(f, ppmi_base_tint_to(bsdf, wi)), PPMI_INV_PI);
 }
 
 ppmi_vec3 ppmi_layers_eval_base(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
@@ -769,20 +578,20 @@ ppmi_vec3 ppmi_layers_eval_coat(const ppmi_bsdf *bsdf, const ppmi_albedo_table *
                                 ppmi_vec3 wi, ppmi_transport transport)
 {
     const ppmi_bsdf_layers *layers = &bsdf->layers;
-    const ppmi_frame frame = coat_frame(layers);
+    const ppmi_frame frame = ppmi_coat_frame(layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo), i = ppmi_frame_to_local(&frame, wi);
     if (o.z <= 0.0f || i.z <= 0.0f) return vec3_splat(0.0f);
     const ppmi_vec2 alpha = layers->coat_alpha;
     const ppmi_vec3 h = vec3_normalize(vec3_add(o, i));
     const float dg = ppmi_ggx2_d(alpha, h) * ppmi_ggx2_g2(alpha, o, i);
-    const float share = layers->coat * passing_fuzz(bsdf, albedo, wi.z);
+    const float share = layers->coat * ppmi_fuzz_passing(bsdf, albedo, wi.z);
     const float f = share * ppmi_schlick(layers->coat_f0, vec3_dot(i, h)) * dg / (4.0f * o.z * i.z);
     return vec3_splat(f * coat_cosine_ratio(bsdf, wi, o.z, i.z, transport));
 }
 
 float ppmi_layers_pdf_coat(const ppmi_bsdf *bsdf, ppmi_vec3 wi)
 {
-    const ppmi_frame frame = coat_frame(&bsdf->layers);
+    const ppmi_frame frame = ppmi_coat_frame(&bsdf->layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo), i = ppmi_frame_to_local(&frame, wi);
     const ppmi_vec3 h = vec3_normalize(vec3_add(o, i));
     const float cos_oh = vec3_dot(o, h);
@@ -799,7 +608,7 @@ static ppmi_vec3 reflect_about(ppmi_vec3 wo, ppmi_vec3 h)
 
 static bool draw_coat(const ppmi_bsdf *bsdf, float u, float v, ppmi_vec3 *wi)
 {
-    const ppmi_frame frame = coat_frame(&bsdf->layers);
+    const ppmi_frame frame = ppmi_coat_frame(&bsdf->layers);
     const ppmi_vec3 o = ppmi_frame_to_local(&frame, bsdf->wo);
     if (o.z <= 0.0f) return false;
     const ppmi_vec3 i =
@@ -838,7 +647,7 @@ bool ppmi_layers_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, 
         if (cosine <= 0.0f) return false;
         *out_wi = reflect_about(bsdf->wo, layers->coat_normal);
         float weight = layers->coat * ppmi_schlick(layers->coat_f0, cosine);
-        weight *= passing_fuzz(bsdf, albedo, out_wi->z);
+        weight *= ppmi_fuzz_passing(bsdf, albedo, out_wi->z);
         /* power: by the base's cosines, as for the rough coat; the coat's cancel */
         if (transport == PPMI_TRANSPORT_POWER) weight *= fabsf(out_wi->z) / bsdf->wo.z;
         *out_weight = vec3_splat(weight);
@@ -846,9 +655,9 @@ bool ppmi_layers_mirror(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, 
     }
     const ppmi_vec3 wo = spec_origin(bsdf, lobe);
     *out_wi = vec3(-wo.x, -wo.y, wo.z);
-    const float share = spec_share(layers, lobe) * passing_to(bsdf, albedo, *out_wi);
+    const float share = spec_share(layers, lobe) * ppmi_top_passing(bsdf, albedo, *out_wi);
     *out_weight =
-        vec3_scale(vec3_mul(spec_fresnel(bsdf, wo.z), base_tint_to(bsdf, *out_wi)), share);
+        vec3_scale(vec3_mul(spec_fresnel(bsdf, wo.z), ppmi_base_tint_to(bsdf, *out_wi)), share);
     return true;
 }
 

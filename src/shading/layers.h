@@ -24,10 +24,6 @@ void ppmi_layers_make(ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
                       const ppmi_material_point *point, const ppmi_base_shares *shares,
                       ppmi_vec3 coat_normal, ppmi_lobe_albedos *out_albedos);
 
-/* What coat and sheen leave of light that goes from wo to wi or back by way of the glass. */
-ppmi_vec3 ppmi_layers_glass_passing(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo,
-                                    ppmi_vec3 wi);
-
 /* Albedo for light that goes to wo, of the lobes in mask but GLASS, by channel. */
 ppmi_vec3 ppmi_layers_albedo(const ppmi_bsdf *bsdf, const ppmi_albedo_table *albedo, uint32_t mask);
 

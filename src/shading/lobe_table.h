@@ -10,6 +10,11 @@ typedef struct ppmi_albedo_pair {
     float a, b; /* factors of F0 and F90 */
 } ppmi_albedo_pair;
 
+static inline float ppmi_albedo_value(ppmi_albedo_pair pair, float f0, float f90)
+{
+    return pair.a * f0 + pair.b * f90;
+}
+
 enum {
     PPMI_LOBE_NODES = 6,
     PPMI_LOBE_ROUGHNESSES = 16,
